@@ -1,0 +1,268 @@
+"""Areas in, one branchless line each out."""
+
+import warnings
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+import shapely
+from shapely import LineString, MultiLineString, MultiPolygon, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from midrib.curves.methods import Finder, finder_of
+from midrib.errors import (
+    GeometryTypeError,
+    InvalidAreaError,
+    MidribError,
+    ParameterError,
+    RepairedAreaWarning,
+)
+from midrib.geodesy import degree_lengths
+from midrib.ragged import pack_areas
+from midrib.repair import repaired
+from midrib.strip import PLANE
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+    Areas = np.ndarray[tuple[int], np.dtype[np.object_]]
+
+__all__ = ["Problem", "collapse"]
+
+
+class Problem(NamedTuple):
+    """What there is to say about an area: it was refused, repaired, or its line lost loops."""
+
+    index: Any  # position of the area, or its label in a GeoSeries
+    part: int  # of a MultiPolygon, else 0
+    status: Literal["refused", "repaired", "loops cut"]
+    reason: str
+
+
+def collapse(
+    areas: Any,
+    method: str = "minimal-radii",
+    *,
+    on_error: Literal["raise", "report"] = "raise",
+    along: Any = None,
+    geographic: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Collapse areas to lines: one line without branches inside each.
+
+    Parameters
+    ----------
+    areas : Polygon, MultiPolygon, array_like of them, GeoSeries or GeoDataFrame
+        None and empty areas stay what they are. Z is carried along.
+    method : str, default "minimal-radii"
+        One of ``midrib.methods()``.
+    on_error : {"raise", "report"}, default "raise"
+        ``"report"`` returns ``(lines, problems)``: an area that is refused gives None and a row of
+        ``problems`` that says why; areas that were repaired and lines that lost loops get a row too.
+    along : LineString or array_like of them, optional
+        Directional polylines, one for each area or None: the main curve is the part of the
+        boundary beside it, see ``midrib.split``.
+    geographic : bool, optional
+        Whether coordinates are degrees of longitude and latitude. Lengths are then in metres; the
+        line is constructed in a plane that is true to scale at the area's middle latitude. Taken
+        from the CRS of a GeoSeries, otherwise False.
+    **options
+        Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` unless you say otherwise.
+
+    Returns
+    -------
+    LineString or MultiLineString; object array; GeoSeries
+        As ``areas`` is one area, an array (same shape) or a GeoSeries (index and CRS kept). A
+        MultiPolygon gives a MultiLineString, part by part; parts that are refused are left out.
+
+    Raises
+    ------
+    GeometryTypeError
+        If something is not an area.
+    InvalidAreaError
+        If an area is not valid and the repair is not certain.
+    ParameterError
+        If an option is unknown or has a value it cannot have.
+
+    Notes
+    -----
+    The two ends come from the area's shape (``midrib.split``), the line from the radii between
+    the two sides (``midrib.minimal_radii``). Every line is covered by its area, exactly, or by the
+    repaired area where one was repaired.
+
+    Examples
+    --------
+    >>> collapse(box(0, 0, 9, 2)).length
+    9.0
+    >>> collapse([box(0, 0, 9, 2), None])
+    array([<LINESTRING (0 1, 1 1, 2 1, 3 1, 4 1, 5 1, 6 1, 7 1, 8 1, 9 1)>, None],
+          dtype=object)
+    """
+    if on_error not in ("raise", "report"):
+        msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
+        raise ParameterError(msg)
+    find = finder_of(method, **options)
+    series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
+    labels: Sequence[Any] | None = None
+    if series is not None:
+        labels, areas = list(series.index), series.to_numpy()
+        if geographic is None:
+            geographic = series.crs is not None and series.crs.is_geographic
+    array = as_array(areas)
+    log = Log(labels, strict=on_error == "raise")
+    lines = collapse_all(array.ravel(), find, guides(along, array.size), bool(geographic), log)
+    result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
+    if series is not None:
+        result = type(series)(lines, index=series.index, crs=series.crs)
+    return result if on_error == "raise" else (result, log.problems)
+
+
+class Log:
+    """What went wrong where; a strict one raises at the first refusal."""
+
+    def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
+        self.problems: list[Problem] = []
+        self.labels, self.strict = labels, strict
+
+    def label(self, index: int) -> Any:
+        """Name of an area: its label in a GeoSeries, else its position."""
+        return index if self.labels is None else self.labels[index]
+
+    def refuse(self, index: int, part: int, error: MidribError) -> None:
+        """Record that an area (part) has no line, and why."""
+        if self.strict:
+            raise type(error)(self.sentence(index, part, str(error))) from error
+        self.problems.append(Problem(self.label(index), part, "refused", str(error)))
+
+    def note(
+        self, index: int, part: int, status: Literal["repaired", "loops cut"], reason: str
+    ) -> None:
+        """Record something about a line that is there; a strict log warns of repairs."""
+        if not self.strict:
+            self.problems.append(Problem(self.label(index), part, status, reason))
+        elif status == "repaired":
+            message = self.sentence(index, part, f"repaired: {reason}")
+            warnings.warn(message, RepairedAreaWarning, stacklevel=5)
+
+    def sentence(self, index: int, part: int, text: str) -> str:
+        """Text with the area it is about."""
+        return f"areas[{self.label(index)}]{f' part {part}' if part else ''}: {text}"
+
+
+def as_array(areas: Any) -> "Areas":
+    """Geometries as an object array; one geometry has no axis."""
+    if isinstance(areas, np.ndarray) and areas.dtype == object:
+        return areas
+    if areas is None or isinstance(areas, BaseGeometry):
+        array = np.empty((), dtype=object)
+        array[()] = areas
+        return array
+    try:
+        sequence = list(areas)
+    except TypeError:
+        msg = f"areas is a {type(areas).__name__}, expected areas"
+        raise GeometryTypeError(msg) from None
+    array = np.empty(len(sequence), dtype=object)
+    array[:] = sequence
+    return array
+
+
+def guides(along: Any, count: int) -> "Areas | None":
+    """Directional polylines, one for each area."""
+    if along is None:
+        return None
+    flat = as_array(along).ravel()
+    if flat.size not in (1, count):
+        msg = f"along has {flat.size} lines for {count} areas, expected one each"
+        raise ParameterError(msg)
+    return np.broadcast_to(flat, (count,))
+
+
+class Part(NamedTuple):
+    """One polygon to collapse: the area it is of, its number there, itself."""
+
+    index: int
+    number: int
+    polygon: Polygon
+
+
+def collapse_all(
+    areas: "Areas", find: Finder, along: "Areas | None", geographic: bool, log: Log
+) -> "Areas":
+    """Lines of a flat array of areas."""
+    parts = list(valid_parts(areas, log))
+    lines: Areas = np.empty(areas.size, dtype=object)
+    lines[:] = [empty_like(area) for area in areas]
+    found: list[list[LineString]] = [[] for _ in range(areas.size)]
+    for part, line in zip(parts, lines_of(parts, find, along, geographic, log), strict=True):
+        if line is not None:
+            found[part.index].append(line)
+    for i, pieces in enumerate(found):
+        if pieces:
+            is_multi = isinstance(areas[i], MultiPolygon)
+            lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
+    return lines
+
+
+def empty_like(area: Any) -> LineString | None:
+    """The line of an area that has none yet: an empty one for an empty area, else None."""
+    return LineString() if isinstance(area, BaseGeometry) and area.is_empty else None
+
+
+def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
+    """Polygons of all areas, repaired where they are not valid."""
+    is_valid = shapely.is_valid(areas)
+    for i, area in enumerate(areas):
+        if area is None or (isinstance(area, BaseGeometry) and area.is_empty):
+            continue
+        if not isinstance(area, Polygon | MultiPolygon):
+            kind = getattr(area, "geom_type", type(area).__name__)
+            log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
+            continue
+        polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
+        for number, polygon in enumerate(polygons):
+            if is_valid[i] or (polygon.is_valid and not polygon.is_empty):
+                yield Part(i, number, polygon)
+                continue
+            try:
+                better, reason = repaired(polygon)
+            except InvalidAreaError as error:
+                log.refuse(i, number, error)
+                continue
+            log.note(i, number, "repaired", reason)
+            yield Part(i, number, better)
+
+
+def lines_of(
+    parts: list[Part], find: Finder, along: "Areas | None", geographic: bool, log: Log
+) -> list[LineString | None]:
+    """The line of each part, None where it was refused."""
+    lines: list[LineString | None] = [None] * len(parts)
+    if not parts:
+        return lines
+    polygons: Areas = np.empty(len(parts), dtype=object)
+    polygons[:] = [part.polygon for part in parts]
+    packed = pack_areas(polygons)
+    bounds = shapely.bounds(polygons) if geographic else None
+    flat: list[tuple[int, Floats]] = []
+    for i, part in enumerate(parts):
+        guide = None if along is None else along[part.index]
+        try:
+            scale = PLANE if bounds is None else degree_lengths(bounds[i])
+            result = find(*packed.rings(i), guide, scale)
+        except MidribError as error:
+            log.refuse(part.index, part.number, error)
+            continue
+        if result.loops:
+            log.note(part.index, part.number, "loops cut", f"{result.loops} loops cut")
+        if result.height is None:
+            flat.append((i, result.points))
+        else:
+            lines[i] = LineString(np.column_stack([result.points, result.height]))
+    if flat:
+        rows, points = [i for i, _ in flat], [p for _, p in flat]
+        owner = np.repeat(np.arange(len(rows)), [p.shape[0] for p in points])
+        made = shapely.linestrings(np.concatenate(points), indices=owner)
+        for i, line in zip(rows, made, strict=True):
+            lines[i] = line
+    return lines

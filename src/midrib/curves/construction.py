@@ -1,0 +1,417 @@
+"""The construction: radii from the main to the auxiliary curve, and the chain of their middles.
+
+        P0      P1     P2     P3       main curve, stations P
+    ----+-------+------+------+----
+        :       :      :      :        minimal radii PQ
+    .S..S.......S......S......S..      the curve: middles S, and one point for each end
+        :       :      :      :
+    ----+-------+------+------+----
+        Q0      Q1     Q2     Q3       auxiliary curve
+
+Arrays only: ``minimal_radii`` and ``collapse`` shape the answer.
+"""
+
+from typing import Literal, NamedTuple, TypeAlias, cast
+
+import numpy as np
+
+from midrib.errors import ParameterError
+from midrib.kernels.boxtree import GRAZE
+from midrib.kernels.loops import cut_loops
+from midrib.kernels.paths import join_points
+from midrib.kernels.visibility import nearest_visible
+from midrib.layout import Layout
+from midrib.curves.stations import StationRule, points_at
+from midrib.types import Bools, Floats, Ints
+
+__all__ = [
+    "EndClearance",
+    "EndRule",
+    "Path",
+    "Radii",
+    "check_ends",
+    "draw_radii",
+    "join_middles",
+    "jumps_of",
+]
+
+EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
+EndClearance: TypeAlias = Literal["station", "proportional"] | float | None
+COLLAPSED = 0.5  # a radius has collapsed into the shared end if E is less than half as far from it
+STRAIGHT = 2.0**-20  # a first segment goes on through vertices that bend by less than this
+LOOP_ROUNDS = 8
+JUMP_SLACK = 2.0**-20
+RULES = ("main", "caps", "radii")
+
+
+class Radii(NamedTuple):
+    """Minimal radii in order of travel; several with one station where they tie."""
+
+    stations: Floats  # (n,) all stations, with or without a radius
+    station: Ints  # (k,) which of them each radius belongs to
+    on_main: Floats  # (k, 2) P
+    on_auxiliary: Floats  # (k, 2) Q
+    arc: Floats  # (k,) arc length of Q along the auxiliary curve
+    length: Floats  # (k,) the radius
+    kind: Ints  # (k,) FOOT, VERTEX, GRAZE or LIMIT
+    side: Ints  # (k,) boundary side of P
+    vertex: Ints  # (k,) mesh vertex of P, or -1
+
+
+class Path(NamedTuple):
+    """The finished chain: points, the middle (or end) each is, and the loops cut out."""
+
+    points: Floats  # (m, 2)
+    source: Ints  # (m,) row of the middles with the ends; -1 - v at mesh vertex v
+    height: Floats | None  # (m,) Z
+    loops: int
+
+
+def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Radii:
+    """Place the stations on the main curve and draw the radii from them."""
+    main = layout.main
+    stations = rule.on(main, layout.mean_width / 2.0)
+    points, segment, vertex = points_at(main, layout.mesh.x, layout.mesh.y, stations)
+    if rule.skip is not None:
+        keep = rule.kept(stations, points)
+        stations, points = stations[keep], points[keep]
+        segment, vertex = segment[keep], vertex[keep]
+    side = main.side[segment]
+    low, high = np.full(stations.size, -np.inf), np.full(stations.size, np.inf)
+    if isinstance(clearance, int | float):
+        if layout.shares_start:
+            low[:] = clearance
+        if layout.shares_end:
+            high[:] = layout.auxiliary.length - clearance
+    radii = look_from(layout, stations, points, side, vertex, low, high)
+    if clearance in ("station", "proportional"):
+        crowded = crowd_the_ends(layout, radii, clearance, low, high)
+        if crowded.any():
+            again = look_from(layout, stations, points, side, vertex, low, high, crowded)
+            radii = replaced(radii, again, crowded)
+    return radii
+
+
+def look_from(
+    layout: Layout,
+    stations: Floats,
+    points: Floats,
+    side: Ints,
+    vertex: Ints,
+    low: Floats,
+    high: Floats,
+    only: Bools | None = None,
+) -> Radii:
+    """Nearest visible points from stations, all or only some."""
+    chosen = slice(None) if only is None else np.flatnonzero(only)
+    x, y = points[chosen, 0].copy(), points[chosen, 1].copy()
+    row, found, kind = nearest_visible(
+        layout.mesh,
+        layout.target,
+        layout.auxiliary.vertex,
+        layout.auxiliary.arc,
+        x,
+        y,
+        side[chosen],
+        vertex[chosen],
+        low[chosen],
+        high[chosen],
+        *layout.scale,
+    )
+    if only is not None:
+        row = np.flatnonzero(only)[row]
+    return Radii(
+        stations,
+        row,
+        points[row],
+        found[:, :2],
+        found[:, 2],
+        np.sqrt(found[:, 3]),
+        kind,
+        side[row],
+        vertex[row],
+    )
+
+
+def replaced(radii: Radii, again: Radii, crowded: Bools) -> Radii:
+    """Radii with those of the crowded stations drawn again."""
+    keep = ~crowded[radii.station]
+    station = np.concatenate([radii.station[keep], again.station])
+    order = np.argsort(station, kind="stable")
+    columns = [
+        np.concatenate([old[keep], new])[order]
+        for old, new in zip(radii[1:], again[1:], strict=True)
+    ]
+    return Radii(radii.stations, *columns)
+
+
+def crowd_the_ends(
+    layout: Layout, radii: Radii, clearance: EndClearance, low: Floats, high: Floats
+) -> Bools:
+    """Which stations next to a shared end have a collapsed radius; writes their clearance.
+
+    From the end on, up to the first station whose free radius already keeps half its distance:
+    from there the construction needs no help, and a bound would only hide the nearest point.
+    """
+    n, stations = radii.stations.size, radii.stations
+    main, auxiliary = layout.main, layout.auxiliary
+    first, last = np.full(n, np.nan), np.full(n, np.nan)
+    np.fmin.at(first, radii.station, radii.arc)
+    np.fmax.at(last, radii.station, radii.arc)
+    crowded = np.zeros(n, dtype=np.bool_)
+    if layout.shares_start:
+        keeps = ~(last < COLLAPSED * stations) & (stations > 0.0)
+        stop = int(np.argmax(keeps)) if keeps.any() else n
+        if stop > 1:
+            pace = pace_of(main.arc, auxiliary.arc, layout, clearance, from_start=True)
+            crowded[:stop] = True
+            low[:stop] = paced(stations[:stop], *pace)
+    if layout.shares_end:
+        to_go, left = main.length - stations, auxiliary.length - first
+        keeps = ~(left < COLLAPSED * to_go) & (to_go > 0.0)
+        start = n - int(np.argmax(keeps[::-1])) if keeps.any() else 0
+        if n - start > 1:
+            pace = pace_of(main.arc, auxiliary.arc, layout, clearance, from_start=False)
+            crowded[start:] = True
+            high[start:] = auxiliary.length - paced(to_go[start:], *pace)
+    return crowded
+
+
+def pace_of(
+    main: Floats, auxiliary: Floats, layout: Layout, clearance: EndClearance, *, from_start: bool
+) -> tuple[float, float]:
+    """Lengths of the first (last) segments of the two curves, equal for ``"station"``."""
+    if clearance == "station":
+        return 1.0, 1.0
+    return (
+        end_run(layout, layout.main.vertex, main, from_start=from_start),
+        end_run(layout, layout.auxiliary.vertex, auxiliary, from_start=from_start),
+    )
+
+
+def end_run(layout: Layout, vertex: Ints, arc: Floats, *, from_start: bool) -> float:
+    """Length of a chain's first (last) straight run; a vertex on a straight line ends nothing."""
+    if not from_start:
+        vertex, arc = vertex[::-1], arc[-1] - arc[::-1]
+    x, y = layout.mesh.x[vertex] * layout.scale[0], layout.mesh.y[vertex] * layout.scale[1]
+    dx, dy = x - x[0], y - y[0]
+    i = 1
+    while i + 1 < vertex.size:
+        length_squared = dx[i + 1] ** 2 + dy[i + 1] ** 2
+        if abs(dx[i + 1] * dy[i] - dy[i + 1] * dx[i]) > STRAIGHT * length_squared:
+            break
+        i += 1
+    return float(arc[i])
+
+
+def paced(stations: Floats, main_run: float, auxiliary_run: float) -> Floats:
+    """Clearance at stations: in proportion along the first segments, then step by step."""
+    on_run = stations * (auxiliary_run / main_run)
+    return np.where(stations <= main_run, on_run, auxiliary_run + (stations - main_run))
+
+
+def check_ends(ends: EndRule, clearance: EndClearance) -> None:
+    """Refuse end rules and clearances that do not exist."""
+    is_pair = isinstance(ends, tuple | list) and len(ends) == 2
+    if not (is_pair or ends is None or (isinstance(ends, str) and ends in RULES)):
+        msg = f"ends is {ends!r}, expected 'main', 'caps', 'radii', a pair of points or None"
+        raise ParameterError(msg)
+    is_length = isinstance(clearance, int | float) and not isinstance(clearance, bool)
+    if is_length and 0.0 <= float(clearance) < np.inf:  # type: ignore[arg-type]
+        return
+    if clearance is not None and clearance not in ("station", "proportional"):
+        msg = (
+            f"end_clearance is {clearance!r}, expected 'station', 'proportional', a length or None"
+        )
+        raise ParameterError(msg)
+
+
+class EndPoint(NamedTuple):
+    """A point for one end of the chain, and where on the boundary the search for it begins."""
+
+    point: tuple[float, float]
+    origin: tuple[float, float]
+    side: int
+    vertex: int
+
+
+def end_points(layout: Layout, ends: EndRule) -> list[EndPoint]:
+    """The chain's two end points by rules 1 to 4 of the paper's section 4, or none."""
+    main = layout.main
+    if ends is None:
+        return []
+    if ends == "main":
+        return [vertex_end(layout, main.vertex[0]), vertex_end(layout, main.vertex[-1])]
+    if ends == "caps":
+        return [vertex_end(layout, v) for v in layout.middle]
+    if ends == "radii":
+        return [radius_end(layout, 0), radius_end(layout, -1)]
+    pair = [coordinates_of(point) for point in cast("tuple[object, object]", ends)]
+    return [EndPoint(p, p, int(main.side[i]), -1) for p, i in zip(pair, (0, -1), strict=True)]
+
+
+def coordinates_of(point: object) -> tuple[float, float]:
+    """Coordinates of a Point or of a pair of numbers."""
+    pair = np.asarray(getattr(point, "coords", [point])[0], dtype=np.float64)
+    if pair.shape not in ((2,), (3,)) or not np.isfinite(pair).all():
+        msg = f"ends has {point!r}, expected a Point or two finite numbers"
+        raise ParameterError(msg)
+    return float(pair[0]), float(pair[1])
+
+
+def vertex_end(layout: Layout, v: int) -> EndPoint:
+    """A mesh vertex as an end point."""
+    point = float(layout.mesh.x[v]), float(layout.mesh.y[v])
+    return EndPoint(point, point, int(layout.mesh.door[v]), int(v))
+
+
+def radius_end(layout: Layout, which: int) -> EndPoint:
+    """Rule 3: the middle of the radius from an end of the main curve to a segment apart from it."""
+    main, auxiliary = layout.main, layout.auxiliary
+    v, side = main.vertex[which], main.side[which]
+    low, high = -np.inf, np.inf
+    if which == 0 and layout.shares_start:
+        low = auxiliary.arc[1]
+    if which == -1 and layout.shares_end:
+        high = auxiliary.arc[-2]
+    x, y = float(layout.mesh.x[v]), float(layout.mesh.y[v])
+    _, found, _ = nearest_visible(
+        layout.mesh,
+        layout.target,
+        auxiliary.vertex,
+        auxiliary.arc,
+        np.array([x]),
+        np.array([y]),
+        np.array([side]),
+        np.array([v]),
+        np.array([low]),
+        np.array([high]),
+        *layout.scale,
+    )
+    if found.shape[0] == 0:
+        end = "start" if which == 0 else "end"
+        msg = (
+            f"ends='radii' finds no radius at the {end} of the main curve, ({x:.12g}, {y:.12g}), "
+            "to a segment that does not touch it"
+        )
+        raise ParameterError(msg)
+    middle = float((x + found[0, 0]) / 2.0), float((y + found[0, 1]) / 2.0)
+    return EndPoint(middle, (x, y), int(side), int(v))
+
+
+class Beads(NamedTuple):
+    """Points to string on the chain, and where on the boundary the search for each begins."""
+
+    point: Floats
+    origin: Floats
+    side: Ints
+    vertex: Ints
+
+
+def string_beads(radii: Radii, ends: list[EndPoint]) -> Beads:
+    """The middles of the radii between the end points."""
+    middles = (radii.on_main + radii.on_auxiliary) / 2.0
+    if not ends:
+        return Beads(middles, radii.on_main, radii.side, radii.vertex)
+    a, b = ends
+    return Beads(
+        np.concatenate([[a.point], middles, [b.point]]),
+        np.concatenate([[a.origin], radii.on_main, [b.origin]]),
+        np.concatenate([[a.side], radii.side, [b.side]]),
+        np.concatenate([[a.vertex], radii.vertex, [b.vertex]]),
+    )
+
+
+def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
+    """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
+
+    Without holes, and with radii that never turn back, the chain has no loops (method, section 5).
+    """
+    ends = end_points(layout, rule)
+    beads = string_beads(radii, ends)
+    points, source = join_beads(layout, beads)
+    if rule not in RULES and ends:
+        refuse_ends_outside(ends, source, beads.point.shape[0])
+    is_orderly = rule in ("main", "caps", None) and bool(np.all(np.diff(radii.arc) >= 0.0))
+    loops = 0
+    if layout.has_holes or not is_orderly:
+        for _ in range(LOOP_ROUNDS):
+            cut, row, found = cut_loops(points)
+            if not found:
+                break
+            loops += found
+            points, source = join_again(layout, beads, cut, row, source)
+    return Path(points, source, height_along(layout, radii, points, source, bool(ends)), loops)
+
+
+def join_beads(layout: Layout, beads: Beads) -> tuple[Floats, Ints]:
+    """Shortest paths between consecutive beads."""
+    (x, y), (px, py) = beads.point.T.copy(), beads.origin.T.copy()
+    path, source = join_points(layout.mesh, x, y, px, py, beads.side, beads.vertex, *layout.scale)
+    return path, source
+
+
+def join_again(
+    layout: Layout, beads: Beads, cut: Floats, row: Ints, source: Ints
+) -> tuple[Floats, Ints]:
+    """Prove a path again after its loops have been cut; new points count as one past the beads."""
+    new = beads.point.shape[0]
+    came_from = np.where(row < 0, new, source[row])
+    hint = np.where(came_from == new, -1, came_from)
+    hint = np.maximum.accumulate(np.where(hint < 0, -1, np.arange(hint.size)))
+    hint = came_from[np.maximum(hint, 0)]
+    hint = np.where((hint < 0) | (hint >= new), 0, hint)
+    again = Beads(cut, beads.origin[hint], beads.side[hint], beads.vertex[hint])
+    points, place = join_beads(layout, again)
+    return points, np.where(place < 0, place, came_from[place])
+
+
+def refuse_ends_outside(ends: list[EndPoint], source: Ints, count: int) -> None:
+    """Refuse end points of the caller's that are not in the area."""
+    for name, end, row in (("first", ends[0], 0), ("second", ends[1], count - 1)):
+        equal_neighbours = count > 1 and source.size > 0
+        if row not in source and not (equal_neighbours and row == count - 1 and source[-1] >= 0):
+            x, y = end.point
+            msg = f"the {name} of ends, ({x:.12g}, {y:.12g}), lies outside the area"
+            raise ParameterError(msg)
+
+
+def height_along(
+    layout: Layout, radii: Radii, points: Floats, source: Ints, has_ends: bool
+) -> Floats | None:
+    """Z of every point of the path, None if the area has none: of a middle, the mean of the two
+    curves' heights; of a mesh vertex, its own; of a crossing, in between along the path."""
+    height = layout.height
+    if height is None:
+        return None
+    main, auxiliary = layout.main, layout.auxiliary
+    on_main = np.interp(radii.stations[radii.station], main.arc, height[main.vertex])
+    on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
+    beads = (on_main + on_auxiliary) / 2.0
+    if has_ends:
+        beads = np.concatenate([[height[layout.middle[0]]], beads, [height[layout.middle[1]]]])
+    z = np.where(
+        source < 0,
+        height[np.where(source < 0, -1 - source, 0)],
+        np.append(beads, np.nan)[np.maximum(source, 0)],
+    )
+    unknown = np.isnan(z)
+    if unknown.any() and not unknown.all():
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        z[unknown] = np.interp(along[unknown], along[~unknown], z[~unknown])
+    return z
+
+
+def jumps_of(radii: Radii) -> Floats:
+    """Stations at which Q jumps: halfway between two stations, or a station whose radii tie.
+
+    Q moves along the auxiliary curve at most as fast as P along the main one, except behind a
+    grazing vertex; a faster step is a jump.
+    """
+    at = radii.stations[radii.station]
+    step = np.diff(at)
+    move = np.abs(np.diff(radii.arc))
+    behind = (radii.kind[:-1] == GRAZE) & (radii.kind[1:] == GRAZE)
+    slack = JUMP_SLACK * (radii.stations[-1] + (radii.arc.max() if radii.arc.size else 0.0))
+    jump = (move > step * (1.0 + JUMP_SLACK) + slack) & ~behind
+    return np.unique((at[:-1][jump] + at[1:][jump]) / 2.0)

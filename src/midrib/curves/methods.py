@@ -1,0 +1,111 @@
+"""The methods that collapse areas, in one registry."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from midrib.curves.construction import check_ends, draw_radii, join_middles
+from midrib.curves.stations import station_rule
+from midrib.errors import InvalidAreaError, ParameterError
+from midrib.layout import Scale, boundary_of
+from midrib.strip import divide
+
+if TYPE_CHECKING:
+    from shapely import LineString
+
+    from midrib.kernels.rings import Rings
+    from midrib.types import Floats
+
+__all__ = ["Finder", "Found", "Method", "finder_of", "methods"]
+
+
+class Found(NamedTuple):
+    """A line as arrays: points, Z of each or None, and the number of loops cut."""
+
+    points: "Floats"
+    height: "Floats | None"
+    loops: int
+
+
+Finder: TypeAlias = "Callable[[Rings, Floats | None, LineString | None, Scale], Found]"
+
+
+@dataclass(frozen=True)
+class Method:
+    """One way to collapse an area."""
+
+    name: str
+    source: str
+    supports_holes: bool
+    is_exact: bool
+    cost: str
+    finder: "Callable[..., Finder]"
+
+
+def minimal_radii_finder(
+    *,
+    ends: Any = "caps",
+    end_clearance: Any = "proportional",
+    **stations: Any,
+) -> "Finder":
+    """Curve of minimal radii between the ends that the area's shape proposes."""
+    check_ends(ends, end_clearance)
+    rule = station_rule(**stations)
+
+    def find(
+        rings: "Rings", height: "Floats | None", along: "LineString | None", scale: Scale
+    ) -> Found:
+        layout = divide(boundary_of(rings, height), scale, along=along)
+        radii = draw_radii(layout, rule, end_clearance)
+        if radii.station.size == 0:
+            msg = "no station of the main curve sees anything of the auxiliary curve"
+            raise InvalidAreaError(msg)
+        path = join_middles(layout, radii, ends)
+        return Found(path.points, path.height, path.loops)
+
+    return find
+
+
+METHODS = {
+    method.name: method
+    for method in (
+        Method(
+            name="minimal-radii",
+            source="Buczek 2017",
+            supports_holes=True,
+            is_exact=False,
+            cost="n log n",
+            finder=minimal_radii_finder,
+        ),
+    )
+}
+
+
+def methods() -> list[Method]:
+    """What ``collapse`` can do: name, source and capabilities of every method.
+
+    Examples
+    --------
+    >>> [method.name for method in methods()]
+    ['minimal-radii']
+    """
+    return list(METHODS.values())
+
+
+def finder_of(name: str, **options: Any) -> "Finder":
+    """The finder of a method, with its options checked.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such method, or it has no such option.
+    """
+    if name not in METHODS:
+        msg = f"method is {name!r}, expected {' or '.join(repr(known) for known in METHODS)}"
+        raise ParameterError(msg)
+    try:
+        return METHODS[name].finder(**options)
+    except TypeError as error:
+        found = str(error).partition("keyword argument ")[2] or str(error)
+        msg = f"method {name!r} has no option {found}"
+        raise ParameterError(msg) from error

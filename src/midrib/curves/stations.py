@@ -1,0 +1,206 @@
+"""Stations: the arc lengths along the main curve at which radii are drawn.
+
+Source: the paper's section 4 and its Equation 1, d = L / count = L percent / 100.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import TypeAlias, cast
+
+import numpy as np
+import shapely
+from numpy.typing import ArrayLike
+
+from midrib.errors import ParameterError
+from midrib.layout import Chain
+from midrib.types import Bools, Floats, Ints
+
+__all__ = ["Skip", "StationRule", "points_at", "station_rule"]
+
+SkipItem: TypeAlias = (
+    int | slice | shapely.Polygon | shapely.MultiPolygon | Callable[[Floats, Floats], Bools]
+)
+Skip: TypeAlias = SkipItem | Sequence[SkipItem]
+SAME_STATION = 2.0**-40  # of the main curve's length: stations nearer than this are one
+MOST_STATIONS = 50_000_000
+LEAST_COUNT = 2
+
+
+class StationRule:
+    """Where radii are drawn: any mixture of an interval, the vertices and given stations.
+
+    Parameters
+    ----------
+    spacing : float, optional
+        Interval, counted from the start of the main curve.
+    count : int, optional
+        The interval is the curve's length over ``count`` (Eq. 1).
+    percent : float, optional
+        The interval is so many percent of the curve's length (Eq. 1).
+    vertices : bool
+        Complete with the vertices of the main curve.
+    stations : array_like of float, optional
+        Stations of the caller's own, as well as the others.
+    skip : optional
+        Stations to drop, after all others are in place: an index, a slice of indices
+        (``slice(0, 3)`` the first three, ``slice(-2, None)`` the last two), a slice of arc lengths
+        (``slice(10.0, 25.0)``: two floats), a Polygon (points in it), a function of stations
+        and points that returns True for those to drop, or a list of such.
+    """
+
+    def __init__(
+        self,
+        spacing: float | None,
+        count: int | None,
+        percent: float | None,
+        vertices: bool,
+        stations: ArrayLike | None,
+        skip: Skip | None,
+    ) -> None:
+        given = {"spacing": spacing, "count": count, "percent": percent}
+        named = [name for name, value in given.items() if value is not None]
+        if len(named) > 1:
+            msg = f"{' and '.join(named)} exclude each other, give one of them"
+            raise ParameterError(msg)
+        for name in named:
+            value = given[name]
+            if not isinstance(value, int | float | np.number) or not 0 < value < np.inf:
+                msg = f"{name} is {value!r}, expected a positive number"
+                raise ParameterError(msg)
+        if count is not None and count != int(count):
+            msg = f"count is {count!r}, expected a whole number"
+            raise ParameterError(msg)
+        if percent is not None and percent > 100:
+            msg = f"percent is {percent!r}, expected at most 100"
+            raise ParameterError(msg)
+        own = None if stations is None else np.unique(np.asarray(stations, dtype=np.float64))
+        if own is not None and (own.ndim != 1 or not np.isfinite(own).all()):
+            msg = "stations have a value that is not finite, expected arc lengths"
+            raise ParameterError(msg)
+        self.spacing, self.count, self.percent = spacing, count, percent
+        self.vertices, self.stations, self.skip = vertices, own, skip
+
+    def on(self, main: Chain, half_width: float) -> Floats:
+        """Stations on one main curve, ascending.
+
+        Without any rule for the interval, and no stations given, it is the largest commensurate
+        one (L / count) not above ``half_width``.
+        """
+        length = main.length
+        parts = []
+        interval = self.interval(length, half_width)
+        if interval is not None:
+            n = np.floor(length / interval * (1.0 + SAME_STATION))
+            if n > MOST_STATIONS:
+                msg = f"an interval of {interval:g} asks for {n:.3g} stations, expected fewer"
+                raise ParameterError(msg)
+            # i L / n rather than i d: commensurate stations stay so when the curve is reversed.
+            steps = np.arange(int(n) + 1)
+            even = abs(length - n * interval) <= SAME_STATION * length
+            parts.append(length * (steps / n) if even else interval * steps)
+        if self.stations is not None:
+            outside = self.stations[(self.stations < 0.0) | (self.stations > length)]
+            if outside.size:
+                msg = (
+                    f"station {outside[0]:.12g} is not on the main curve, "
+                    f"expected 0 to {length:.12g}"
+                )
+                raise ParameterError(msg)
+            parts.append(self.stations)
+        own = np.concatenate(parts) if parts else np.empty(0)
+        return merged(own, main.arc) if self.vertices else np.unique(own)
+
+    def interval(self, length: float, half_width: float) -> float | None:
+        """Interval on a curve of the given length, None if the rule has none."""
+        if self.spacing is not None:
+            return float(self.spacing)
+        if self.count is not None:
+            return length / int(self.count)
+        if self.percent is not None:
+            return length * (self.percent / 100.0)
+        if self.stations is not None:
+            return None
+        return length / max(np.ceil(length / half_width), LEAST_COUNT)
+
+    def kept(self, stations: Floats, points: Floats) -> Bools:
+        """Which stations ``skip`` leaves."""
+        keep = np.ones(stations.size, dtype=np.bool_)
+        if self.skip is None:
+            return keep
+        items = self.skip if isinstance(self.skip, list | tuple) else [self.skip]
+        for item in items:
+            keep &= ~dropped(cast("SkipItem", item), stations, points)
+        return keep
+
+
+def station_rule(
+    spacing: float | None = None,
+    count: int | None = None,
+    percent: float | None = None,
+    vertices: bool = True,
+    stations: ArrayLike | None = None,
+    skip: Skip | None = None,
+) -> StationRule:
+    """Check the station options and return them as one rule."""
+    return StationRule(spacing, count, percent, vertices, stations, skip)
+
+
+def merged(own: Floats, vertices: Floats) -> Floats:
+    """Vertices, and the stations that are not rounded images of one."""
+    after = np.searchsorted(vertices, own)
+    above = vertices[np.minimum(after, vertices.size - 1)]
+    below = vertices[np.maximum(after - 1, 0)]
+    gap = np.minimum(np.abs(above - own), np.abs(own - below))
+    return np.unique(np.concatenate([vertices, own[gap > SAME_STATION * vertices[-1]]]))
+
+
+def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
+    """Which stations one item of ``skip`` names."""
+    drop = np.zeros(stations.size, dtype=np.bool_)
+    if isinstance(item, slice):
+        if isinstance(item.start, float) or isinstance(item.stop, float):
+            low = -np.inf if item.start is None else item.start
+            high = np.inf if item.stop is None else item.stop
+            return (stations >= low) & (stations <= high)
+        drop[item] = True
+        return drop
+    if isinstance(item, int | np.integer):
+        if not -stations.size <= item < stations.size:
+            msg = f"skip names station {item}, expected an index below {stations.size}"
+            raise ParameterError(msg)
+        drop[item] = True
+        return drop
+    if isinstance(item, shapely.Polygon | shapely.MultiPolygon):
+        return shapely.contains_xy(item, points[:, 0], points[:, 1]) | shapely.intersects_xy(
+            item, points[:, 0], points[:, 1]
+        )
+    if callable(item):
+        mask = np.asarray(item(stations, points), dtype=np.bool_)
+        if mask.shape != stations.shape:
+            msg = f"skip returned {mask.shape} values, expected {stations.shape}"
+            raise ParameterError(msg)
+        return mask
+    msg = f"skip is {item!r}, expected an index, a slice, a Polygon, a function or a list of them"
+    raise ParameterError(msg)
+
+
+def points_at(chain: Chain, x: Floats, y: Floats, stations: Floats) -> tuple[Floats, Ints, Ints]:
+    """Points of a chain at stations: (n, 2) points, segments, and mesh vertices or -1.
+
+    Raises
+    ------
+    ParameterError
+        If there is no station.
+    """
+    if stations.size == 0:
+        msg = "no station is left on the main curve, expected at least one"
+        raise ParameterError(msg)
+    segment = np.searchsorted(chain.arc, stations, side="right") - 1
+    segment = np.minimum(segment, chain.side.size - 1)
+    start = chain.arc[segment]
+    share = (stations - start) / (chain.arc[segment + 1] - start)
+    a, b = chain.vertex[segment], chain.vertex[segment + 1]
+    ends = share == 1.0
+    points = np.empty((stations.size, 2))
+    points[:, 0] = np.where(ends, x[b], x[a] + share * (x[b] - x[a]))
+    points[:, 1] = np.where(ends, y[b], y[a] + share * (y[b] - y[a]))
+    return points, segment, np.where(share == 0.0, a, np.where(ends, b, -1))

@@ -1,0 +1,249 @@
+"""The two ends of an area: where a person would say that it begins and ends.
+
+1. *Far pair*: the two shell vertices with the longest way between them through the triangles,
+   measured by the middles of the sides crossed.
+2. *Shape of an end*, around each of them:
+
+     CAP  p------q   a straight run that both banks meet at 45 to 135 degrees: the end is its
+          |      |   middle, and the run belongs to neither curve
+     TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
+     POINT (    )    anything else: the end is the point of the boundary from which equal ways
+           |    |    along both banks come out level
+
+Lengths are in the metric scale_x dx, scale_y dy, which the caller has applied to rings.
+"""
+
+import numpy as np
+
+from midrib.kernels.heap import pop, push
+from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.triangulation import next_side, previous_side
+from midrib.types import Floats, Ints
+
+__all__ = ["CAP", "POINT", "TIP", "far_pair", "shape_of_end"]
+
+CAP, TIP, POINT = 0, 1, 2
+STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
+LEAST_CORNER = np.cos(np.pi / 4)  # banks meet a cap at 45 to 135 degrees
+TIP_CHORD = 1.0  # chord over arm at 60 degrees
+LEVELLINGS = 8
+
+
+@njit()
+def sweep(
+    mesh: Mesh,
+    n_shell: int,
+    source: int,
+    scale_x: float,
+    scale_y: float,
+    is_tree: bool,
+    entered: Ints,
+    cost: Floats,
+    frontier: Ints,
+) -> tuple[int, float]:
+    """The shell vertex with the longest way from ``source``, and the way's length.
+
+    Without holes the triangles form a tree and any order of visits will do; with holes the
+    nearest side comes first (Dijkstra).
+    """
+    entered[:] = 0
+    size = 0
+    farthest, longest = source, -1.0
+    sx, sy = mesh.x[source], mesh.y[source]
+    door = mesh.door[source]
+    while door >= 0:
+        e = door
+        while e >= 0:
+            entered[e // 3] = 1
+            for v in (mesh.tri[next_side(e)], mesh.tri[previous_side(e)]):
+                way = np.hypot((mesh.x[v] - sx) * scale_x, (mesh.y[v] - sy) * scale_y)
+                if v < n_shell and way > longest:
+                    farthest, longest = v, way
+            e = mesh.twin[previous_side(e)]
+        door = mesh.other_door[door]
+    door = mesh.door[source]
+    while door >= 0:
+        e = door
+        while e >= 0:
+            across = next_side(e)
+            if mesh.twin[across] >= 0:
+                a, b = mesh.tri[across], mesh.tri[next_side(across)]
+                mx, my = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
+                cost[across] = np.hypot((mx - sx) * scale_x, (my - sy) * scale_y)
+                if is_tree:
+                    frontier[size] = across
+                    size += 1
+                else:
+                    size = push(frontier, cost, size, across)
+            e = mesh.twin[previous_side(e)]
+        door = mesh.other_door[door]
+    while size > 0:
+        e = frontier[size - 1] if is_tree else pop(frontier, cost, size)
+        size -= 1
+        f = mesh.twin[e]
+        if entered[f // 3] != 0:
+            continue
+        entered[f // 3] = 1
+        a, b, w = mesh.tri[e], mesh.tri[f], mesh.tri[previous_side(f)]
+        mx, my = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
+        way = cost[e] + np.hypot((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
+        if w < n_shell and way > longest:
+            farthest, longest = w, way
+        for side in (next_side(f), previous_side(f)):
+            if mesh.twin[side] < 0 or entered[mesh.twin[side] // 3] != 0:
+                continue
+            a, b = mesh.tri[side], mesh.tri[next_side(side)]
+            nx, ny = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
+            cost[side] = cost[e] + np.hypot((nx - mx) * scale_x, (ny - my) * scale_y)
+            if is_tree:
+                frontier[size] = side
+                size += 1
+            else:
+                size = push(frontier, cost, size, side)
+    return farthest, longest
+
+
+@njit(entry=True)
+def far_pair(
+    mesh: Mesh, n_shell: int, source: int, scale_x: float, scale_y: float, is_tree: bool
+) -> Ints:
+    """Two shell vertices (mesh vertices below ``n_shell``) with the longest way between them.
+
+    One of them is ``source``, unless that is -1: then it is the farthest vertex from anywhere, and
+    the other is the farthest from that: exact on a tree, a good guess with holes. O(n) without
+    holes, O(n log n) with them.
+    """
+    m = mesh.tri.size
+    entered, cost, frontier = np.empty(m // 3, np.intp), np.empty(m), np.empty(m, np.intp)
+    pair = np.empty(2, np.intp)
+    pair[0] = source
+    if source < 0:
+        pair[0], _ = sweep(mesh, n_shell, 0, scale_x, scale_y, is_tree, entered, cost, frontier)
+    pair[1], _ = sweep(mesh, n_shell, pair[0], scale_x, scale_y, is_tree, entered, cost, frontier)
+    return pair
+
+
+@njit()
+def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float, int, float]:
+    """The point of a closed ring at arc length s (taken round), its segment and the share of it.
+
+    ``arc`` has one entry more than the ring: the perimeter.
+    """
+    n = x.size
+    perimeter = arc[n]
+    s -= np.floor(s / perimeter) * perimeter
+    k = min(max(np.searchsorted(arc, s, side="right") - 1, 0), n - 1)
+    length = arc[k + 1] - arc[k]
+    share = (s - arc[k]) / length if length > 0.0 else 0.0
+    j = k + 1 if k + 1 < n else 0
+    return x[k] + share * (x[j] - x[k]), y[k] + share * (y[j] - y[k]), k, share
+
+
+@njit()
+def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
+    """The last vertex of the straight run that leaves vertex ``start`` in direction ``step``."""
+    n = x.size
+    end = (start + step) % n
+    while True:
+        beyond = (end + step) % n
+        if beyond == start:
+            return end
+        dx, dy = x[beyond] - x[start], y[beyond] - y[start]
+        ex, ey = x[end] - x[start], y[end] - y[start]
+        bends = abs(dx * ey - dy * ex) > STRAIGHT * (dx * dx + dy * dy)
+        if bends or dx * ex + dy * ey < ex * ex + ey * ey:
+            return end
+        end = beyond
+
+
+@njit()
+def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
+    """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
+
+    The banks' directions are taken over the length of the run itself, so that roughness finer
+    than the run does not matter.
+    """
+    perimeter = arc[-1]
+    cx, cy = x[q] - x[p], y[q] - y[p]
+    length = np.hypot(cx, cy)
+    if length <= 0.0 or 3.0 * length > perimeter:
+        return False
+    ax, ay, _, _ = point_at(x, y, arc, arc[p] - length)
+    bx, by, _, _ = point_at(x, y, arc, arc[q] + length)
+    ux, uy, vx, vy = x[p] - ax, y[p] - ay, x[q] - bx, y[q] - by
+    u, v = np.hypot(ux, uy), np.hypot(vx, vy)
+    if u <= 0.0 or v <= 0.0:
+        return False
+    corner_p = abs(ux * cx + uy * cy) / (u * length) <= LEAST_CORNER
+    corner_q = abs(vx * cx + vy * cy) / (v * length) <= LEAST_CORNER
+    outward_p = ux * cy - uy * cx > 0.0  # the shell turns left, so the bank comes from the right
+    outward_q = vx * cy - vy * cx > 0.0
+    return corner_p and corner_q and outward_p and outward_q
+
+
+@njit()
+def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
+    """Shift the arc length s until the points one arm before and after it are level.
+
+    Level means: equally far along the mean direction of the two banks there.
+    """
+    shift_limit = arm
+    for _ in range(LEVELLINGS):
+        ax, ay, _, _ = point_at(x, y, arc, s - arm)
+        bx, by, _, _ = point_at(x, y, arc, s + arm)
+        a2x, a2y, _, _ = point_at(x, y, arc, s - 2.0 * arm)
+        b2x, b2y, _, _ = point_at(x, y, arc, s + 2.0 * arm)
+        ux, uy = (ax - a2x) + (bx - b2x), (ay - a2y) + (by - b2y)
+        length = np.hypot(ux, uy)
+        if length <= 0.5 * arm:
+            return s
+        ahead = ((ax - bx) * ux + (ay - by) * uy) / length
+        shift = min(max(ahead / 2.0, -shift_limit), shift_limit)
+        s -= shift
+        shift_limit /= 2.0
+    return s
+
+
+@njit(entry=True)
+def shape_of_end(x: Floats, y: Floats, vertex: int, width: float) -> tuple[int, int, int, float]:
+    """What the end of an area looks like around one of its far vertices.
+
+    Parameters
+    ----------
+    x, y : (n,) the shell, turning left, in lengths
+    vertex : index of the far vertex
+    width : mean width of the area; roughness much finer than it is overlooked
+
+    Returns
+    -------
+    kind, i, j, share
+        CAP: the corners i and j, in the shell's direction; TIP: vertex i; POINT: ``share`` of the
+        way along segment i.
+    """
+    n = x.size
+    arc = np.zeros(n + 1)
+    for k in range(n):
+        j = k + 1 if k + 1 < n else 0
+        arc[k + 1] = arc[k] + np.hypot(x[j] - x[k], y[j] - y[k])
+    # 1. A straight run at the vertex, forward or backward; the shorter one is the lid.
+    forward, backward = straight_run(x, y, vertex, 1), straight_run(x, y, vertex, -1)
+    inside_run = straight_run(x, y, backward, 1)
+    best, cap_p, cap_q = np.inf, -1, -1
+    for p, q in ((vertex, forward), (backward, vertex), (backward, inside_run)):
+        length = np.hypot(x[q] - x[p], y[q] - y[p])
+        if length < best and is_cap(x, y, arc, p, q):
+            best, cap_p, cap_q = length, p, q
+    if cap_p >= 0:
+        return CAP, cap_p, cap_q, 0.0
+    # 2. Arms along both banks, long enough that roughness does not matter.
+    arm = width / 2.0
+    s = arc[vertex]
+    ax, ay, _, _ = point_at(x, y, arc, s - arm)
+    bx, by, _, _ = point_at(x, y, arc, s + arm)
+    if np.hypot(ax - bx, ay - by) < TIP_CHORD * arm:
+        return TIP, vertex, vertex, 0.0
+    # 3. Neither: the point that leaves the banks level.
+    s = levelled(x, y, arc, s, min(width, arc[n] / 8.0))
+    _, _, k, share = point_at(x, y, arc, s)
+    return POINT, k, k, share

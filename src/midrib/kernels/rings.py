@@ -1,0 +1,89 @@
+"""Rings in one form: shell turning left, holes turning right, each from its lowest-left vertex.
+
+Whatever follows then does not depend on where a ring starts and how it is wound.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.jit import njit
+from midrib.types import Floats, Ints
+
+__all__ = ["Rings", "normalise_rings"]
+
+
+class Rings(NamedTuple):
+    """Vertices of all rings; vertex k is followed by vertex ring_next[k]; the first n_shell are the
+    shell's; origin[k] is the row of the input that vertex k came from."""
+
+    x: Floats
+    y: Floats
+    ring_next: Ints
+    origin: Ints
+    n_shell: int
+
+
+@njit()
+def signed_area(x: Floats, y: Floats, rows: Ints) -> float:
+    """Area of a ring, positive if it turns left; taken about its first vertex."""
+    total = 0.0
+    x0, y0 = x[rows[0]], y[rows[0]]
+    for i in range(1, rows.size - 1):
+        a, b = rows[i], rows[i + 1]
+        total += (x[a] - x0) * (y[b] - y0) - (x[b] - x0) * (y[a] - y0)
+    return total / 2.0
+
+
+@njit()
+def distinct_rows(x: Floats, y: Floats, start: int, stop: int) -> Ints:
+    """Rows of a closed ring without its repeated last vertex and without repeats in a row."""
+    rows = np.empty(stop - start, np.intp)
+    count = 0
+    for k in range(start, stop):
+        if count == 0 or x[k] != x[rows[count - 1]] or y[k] != y[rows[count - 1]]:
+            rows[count] = k
+            count += 1
+    while count > 1 and x[rows[count - 1]] == x[rows[0]] and y[rows[count - 1]] == y[rows[0]]:
+        count -= 1
+    return rows[:count]
+
+
+@njit(entry=True)
+def normalise_rings(coordinates: Floats, offsets: Ints) -> Rings:
+    """Rings of one area in the form above.
+
+    Parameters
+    ----------
+    coordinates : (n, 2 or 3) closed rings one after the other, the shell first
+    offsets : (rings + 1,) where each ring starts
+
+    Returns
+    -------
+    Rings
+        Rings with fewer than three distinct vertices are left out.
+    """
+    x, y = coordinates[:, 0].copy(), coordinates[:, 1].copy()
+    n = x.size
+    origin, ring_next = np.empty(n, np.intp), np.empty(n, np.intp)
+    count, n_shell = 0, 0
+    for ring in range(offsets.size - 1):
+        rows = distinct_rows(x, y, offsets[ring], offsets[ring + 1])
+        size = rows.size
+        if size < 3:
+            continue
+        if (signed_area(x, y, rows) > 0.0) != (ring == 0):
+            rows = rows[::-1].copy()
+        low = 0
+        for i in range(1, size):
+            a, b = rows[i], rows[low]
+            if x[a] < x[b] or (x[a] == x[b] and y[a] < y[b]):
+                low = i
+        for i in range(size):
+            origin[count + i] = rows[(low + i) % size]
+            ring_next[count + i] = count + (i + 1) % size
+        count += size
+        if ring == 0:
+            n_shell = size
+    origin = origin[:count].copy()
+    return Rings(x[origin], y[origin], ring_next[:count].copy(), origin, n_shell)

@@ -1,0 +1,78 @@
+"""The bridge between geometries and arrays: polygons to rings, chains to lines."""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from shapely import MultiPolygon, Polygon
+
+from midrib.errors import GeometryTypeError, InvalidAreaError
+from midrib.kernels.rings import Rings, normalise_rings
+from midrib.types import Floats, Ints
+
+__all__ = ["Packed", "area_of_one", "pack_areas", "place_text", "rings_of", "rings_of_area"]
+
+
+class Packed(NamedTuple):
+    """Polygons as arrays: all coordinates, where each ring starts, where each polygon's rings do."""
+
+    coordinates: Floats  # (n, 2 or 3)
+    ring_offsets: Ints
+    area_offsets: Ints
+
+    def rings(self, i: int) -> tuple[Rings, Floats | None]:
+        """Rings of polygon i in normal form, and the Z of each row or None."""
+        offsets = self.ring_offsets[self.area_offsets[i] : self.area_offsets[i + 1] + 1]
+        rows = self.coordinates[offsets[0] : offsets[-1]]
+        rings = normalise_rings(rows, offsets - offsets[0])
+        return rings, (rows[:, 2] if rows.shape[1] > PLANAR else None)
+
+
+PLANAR = 2
+
+
+def pack_areas(polygons: "np.ndarray[tuple[int], np.dtype[np.object_]]") -> Packed:
+    """Arrays of an array of Polygons, none missing or empty."""
+    has_z = bool(shapely.has_z(polygons).any())
+    _, coordinates, offsets = shapely.to_ragged_array(polygons, include_z=has_z)
+    rings, areas = (np.ascontiguousarray(o, dtype=np.intp) for o in offsets)
+    return Packed(np.ascontiguousarray(coordinates), rings, areas)
+
+
+def rings_of(rings: list[Floats]) -> tuple[Rings, Floats | None]:
+    """Rings in normal form from closed rings of coordinates, and the Z of each row or None."""
+    rows = np.concatenate(rings)
+    offsets = np.zeros(len(rings) + 1, dtype=np.intp)
+    np.cumsum([len(ring) for ring in rings], out=offsets[1:])
+    return normalise_rings(rows, offsets), (rows[:, 2] if rows.shape[1] > PLANAR else None)
+
+
+def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:
+    """Rings of one polygon in normal form, and the Z of each row or None."""
+    return pack_areas(np.array([area], dtype=object)).rings(0)
+
+
+def area_of_one(area: object, name: str) -> Polygon:
+    """A valid Polygon, or the only part of a MultiPolygon."""
+    if isinstance(area, MultiPolygon) and len(area.geoms) == 1:
+        area = area.geoms[0]
+    if not isinstance(area, Polygon):
+        kind = getattr(area, "geom_type", type(area).__name__)
+        parts = f" of {len(area.geoms)} parts" if isinstance(area, MultiPolygon) else ""
+        msg = f"{name} is a {kind}{parts}, expected a Polygon"
+        raise GeometryTypeError(msg)
+    if area.is_empty:
+        msg = f"{name} is empty"
+        raise InvalidAreaError(msg)
+    if not np.isfinite(shapely.get_coordinates(area)).all():
+        msg = f"{name} has a coordinate that is not finite"
+        raise InvalidAreaError(msg)
+    if not area.is_valid:
+        msg = f"{name} is not valid: {shapely.is_valid_reason(area)}"
+        raise InvalidAreaError(msg)
+    return area
+
+
+def place_text(point: Floats) -> str:
+    """Coordinates of a point for a message."""
+    return f"({point[0]:.12g}, {point[1]:.12g})"

@@ -1,0 +1,306 @@
+"""A strip: an area whose boundary is divided into a main and an auxiliary curve."""
+
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import shapely
+from shapely import LineString, Polygon
+
+from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
+from midrib.layout import Boundary, Layout, Scale, boundary_of
+from midrib.ragged import area_of_one, place_text, rings_of, rings_of_area
+from midrib.ends import End, end_at, lay_out_ends, propose_ends
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+__all__ = ["PLANE", "Position", "Strip", "divide", "split"]
+
+Position: TypeAlias = "shapely.Point | tuple[float, float]"
+PLANE: Scale = (1.0, 1.0)
+MIN_POINTS, MIN_RING = 2, 3
+HALF = 0.5
+BOUNDARY_SAMPLES = 1000  # places at which a curve is held against the boundary, vertices besides
+ON_BOUNDARY = 1e-9  # a curve is on the boundary if it is this near, as a share of the extent
+
+
+class Strip:
+    """An area with its main curve and its auxiliary curve.
+
+    Parameters
+    ----------
+    main, auxiliary : LineString
+        The two curves. The auxiliary one may run either way; it is turned to run beside the main
+        one. Where they do not share an end, a straight cap joins them.
+    area : Polygon, optional
+        The area they bound, with holes if it has any. Built from the curves and straight caps if
+        it is not given.
+
+    Raises
+    ------
+    GeometryTypeError
+        If a curve is not a LineString, or the area not a Polygon.
+    InvalidAreaError
+        If the curves do not divide the area's boundary: one is not on it, a part of the boundary
+        belongs to both or to neither, a cap is not straight, or curves and caps cross.
+
+    Notes
+    -----
+    The rules are those of section 3 of the paper: the main and the auxiliary curve are together
+    the whole outer boundary, caps apart, and have no segment in common.
+
+    Examples
+    --------
+    >>> strip = Strip(LineString([(0, 0), (9, 0)]), LineString([(9, 2), (0, 2)]))
+    >>> strip.auxiliary.wkt
+    'LINESTRING (0 2, 9 2)'
+    >>> strip.area.area
+    18.0
+    """
+
+    main: LineString
+    auxiliary: LineString
+    area: Polygon
+
+    def __init__(
+        self, main: LineString, auxiliary: LineString, area: Polygon | None = None
+    ) -> None:
+        main, auxiliary = checked_curve(main, "main"), checked_curve(auxiliary, "auxiliary")
+        self.main, self.auxiliary = main, beside(auxiliary, main)
+        ring = ring_of(self.main, self.auxiliary)
+        if area is None:
+            check_ring(self.main, self.auxiliary, ring)
+            self.area = Polygon(ring)
+        else:
+            self.area = area_of_one(area, "area")
+            check_division(self.main, self.auxiliary, ring, self.area)
+        self._ring = ring
+
+    def __repr__(self) -> str:
+        """Show the sizes of the two curves."""
+        main, auxiliary = len(self.main.coords), len(self.auxiliary.coords)
+        holes = len(self.area.interiors)
+        return f"<Strip: main {main} vertices, auxiliary {auxiliary}, {holes} holes>"
+
+    @classmethod
+    def _of_layout(cls, layout: Layout, area: Polygon) -> "Strip":
+        """Strip of an area that has been laid out already."""
+        strip = cls.__new__(cls)
+        x, y, z = layout.mesh.x, layout.mesh.y, layout.height
+        columns = (x, y) if z is None else (x, y, z)
+        strip.main, strip.auxiliary = (
+            LineString(np.column_stack([c[chain.vertex] for c in columns]))
+            for chain in (layout.main, layout.auxiliary)
+        )
+        strip.area = area
+        strip.__dict__["layout"] = layout
+        return strip
+
+    @cached_property
+    def layout(self) -> Layout:
+        """The strip as the kernels see it."""
+        has_z = self._ring.shape[1] == 3
+        holes = [shapely.get_coordinates(h, include_z=has_z) for h in self.area.interiors]
+        boundary = boundary_of(*rings_of([self._ring, *holes]))
+        mesh, order = boundary.mesh, boundary.order
+        place = {xy: i for i, xy in enumerate(zip(mesh.x[order], mesh.y[order], strict=True))}
+        ends = shapely.get_coordinates([self.main, self.auxiliary])
+        n = len(self.main.coords)
+        first, last, before, after = (place[tuple(ends[i])] for i in (0, n - 1, n, -1))
+        if shapely.is_ccw(shapely.linearrings(self._ring[:, :2])):
+            return lay_out_ends(boundary, End(before, first), End(last, after), PLANE, "with")
+        return lay_out_ends(boundary, End(first, before), End(after, last), PLANE, "against")
+
+
+def split(
+    area: Polygon,
+    *,
+    along: LineString | None = None,
+    start: "Position | None" = None,
+    end: "Position | None" = None,
+) -> Strip:
+    """Divide an area into a main and an auxiliary curve.
+
+    Without further options the ends are what a person would call the ends: sharp tips, the middle
+    of flat or round ends. A flat end becomes a cap, which belongs to neither curve. The shorter
+    curve becomes the main one, as the construction follows the roughness of the main curve.
+
+    Parameters
+    ----------
+    area : Polygon
+        The area, with holes if it has any.
+    along : LineString, optional
+        A directional polyline on or near the boundary: the curves divide where it starts and ends,
+        and the part beside it becomes the main curve, in its direction.
+    start, end : Point or pair of float, optional
+        Where the curves divide: the nearest points of the outer boundary. With only one of them
+        given, the other is the end farthest from it.
+
+    Returns
+    -------
+    Strip
+        With the main curve running from start to end.
+
+    Raises
+    ------
+    GeometryTypeError
+        If ``area`` is not a Polygon, or ``along`` not a LineString.
+    InvalidAreaError
+        If the area is not valid, or start and end are one point of the boundary.
+    ParameterError
+        If ``along`` is given together with ``start`` or ``end``.
+
+    Notes
+    -----
+    The ends are those of the longest way through the triangles of the constrained Delaunay
+    triangulation; near each of them the shape of the boundary decides between tip, flat cap and
+    round end. O(n log n).
+
+    Examples
+    --------
+    >>> split(box(0, 0, 9, 2)).main.wkt
+    'LINESTRING (0 0, 9 0)'
+    """
+    area = area_of_one(area, "area")
+    boundary = boundary_of(*rings_of_area(area))
+    return Strip._of_layout(  # noqa: SLF001  # the same module's own constructor
+        divide(boundary, PLANE, along=along, start=start, end=end), area
+    )
+
+
+def divide(
+    boundary: Boundary,
+    scale: Scale,
+    *,
+    along: LineString | None = None,
+    start: "Position | None" = None,
+    end: "Position | None" = None,
+) -> Layout:
+    """Divide a triangulated area by whatever hint there is; see ``split``."""
+    if along is not None:
+        if start is not None or end is not None:
+            msg = "along excludes start and end, give one or the other"
+            raise ParameterError(msg)
+        return divide_along(boundary, checked_curve(along, "along"), scale)
+    if start is None and end is None:
+        return lay_out_ends(boundary, *propose_ends(boundary, scale), scale)
+    if start is not None and end is not None:
+        first, last = (
+            end_at(boundary, position(p, n), scale) for p, n in ((start, "start"), (end, "end"))
+        )
+        return lay_out_ends(boundary, first, last, scale)
+    given = end_at(boundary, position(end if start is None else start, "start"), scale)
+    corner = given.place if given.share < HALF else (given.place + 1) % boundary.order.size
+    _, other = propose_ends(boundary, scale, int(boundary.order[corner]))
+    return lay_out_ends(boundary, *((other, given) if start is None else (given, other)), scale)
+
+
+def divide_along(boundary: Boundary, along: LineString, scale: Scale) -> Layout:
+    """Divide where a directional polyline starts and ends; main is the part beside it."""
+    points = shapely.get_coordinates(along)
+    first, last = end_at(boundary, points[0], scale), end_at(boundary, points[-1], scale)
+    middle = shapely.get_coordinates(along.interpolate(0.5, normalized=True))[0]
+    layout = lay_out_ends(boundary, first, last, scale, "with")
+    distance = [
+        LineString(np.column_stack([layout.mesh.x[c.vertex], layout.mesh.y[c.vertex]])).distance(
+            shapely.Point(middle)
+        )
+        for c in (layout.main, layout.auxiliary)
+    ]
+    if distance[0] <= distance[1]:
+        return layout
+    return lay_out_ends(boundary, first, last, scale, "against")
+
+
+def position(value: object, name: str) -> "Floats":
+    """Coordinates of a Point or of a pair of numbers."""
+    if isinstance(value, shapely.Point) and not value.is_empty:
+        return np.array([value.x, value.y])
+    pair = (
+        np.asarray(value, dtype=np.float64)
+        if isinstance(value, tuple | list | np.ndarray)
+        else None
+    )
+    if pair is None or pair.shape != (2,) or not np.isfinite(pair).all():
+        msg = f"{name} is {value!r}, expected a Point or a pair of finite numbers"
+        raise ParameterError(msg)
+    return pair
+
+
+def checked_curve(curve: object, name: str) -> LineString:
+    """A LineString with at least two distinct points, without repeats in a row."""
+    if not isinstance(curve, LineString):
+        kind = getattr(curve, "geom_type", type(curve).__name__)
+        msg = f"{name} is a {kind}, expected a LineString"
+        raise GeometryTypeError(msg)
+    points = shapely.get_coordinates(curve, include_z=curve.has_z)
+    if not np.isfinite(points[:, :2]).all():
+        msg = f"{name} has a coordinate that is not finite"
+        raise InvalidAreaError(msg)
+    distinct = np.ones(points.shape[0], dtype=np.bool_)
+    distinct[1:] = (points[1:, :2] != points[:-1, :2]).any(axis=1)
+    if np.count_nonzero(distinct) < MIN_POINTS:
+        msg = f"{name} has fewer than two distinct points"
+        raise InvalidAreaError(msg)
+    return LineString(points[distinct])
+
+
+def beside(auxiliary: LineString, main: LineString) -> LineString:
+    """The auxiliary curve, turned if its ends are nearer to the main curve's the other way."""
+    a, m = shapely.get_coordinates(auxiliary)[[0, -1]], shapely.get_coordinates(main)[[0, -1]]
+    as_is = np.hypot(*(a - m).T).sum()
+    turned = np.hypot(*(a[::-1] - m).T).sum()
+    return auxiliary if as_is <= turned else LineString(np.array(auxiliary.coords)[::-1])
+
+
+def ring_of(main: LineString, auxiliary: LineString) -> "Floats":
+    """The closed ring main, cap, auxiliary backwards, cap."""
+    has_z = main.has_z and auxiliary.has_z
+    m = shapely.get_coordinates(main, include_z=has_z)
+    a = shapely.get_coordinates(auxiliary, include_z=has_z)[::-1]
+    ring = np.concatenate([m, a, m[:1]])
+    distinct = np.ones(ring.shape[0], dtype=np.bool_)
+    distinct[1:] = (ring[1:, :2] != ring[:-1, :2]).any(axis=1)
+    return ring[distinct]
+
+
+def check_ring(main: LineString, auxiliary: LineString, ring: "Floats") -> None:
+    """Refuse curves that bound no area, with the rule that is broken."""
+    shared = main.intersection(auxiliary)
+    if shared.length > 0.0:
+        where = place_text(shapely.get_coordinates(shared)[0])
+        msg = f"a segment belongs to main and auxiliary both, at {where}, expected to one of them"
+        raise InvalidAreaError(msg)
+    for curve, name in ((main, "main"), (auxiliary, "auxiliary")):
+        if not curve.is_simple:
+            msg = f"the {name} curve crosses itself, expected a simple chain"
+            raise InvalidAreaError(msg)
+    polygon = Polygon(ring) if ring.shape[0] > MIN_RING else Polygon()
+    if not polygon.is_valid or polygon.area == 0.0:
+        reason = shapely.is_valid_reason(polygon) if polygon.area else "they enclose nothing"
+        msg = f"main, auxiliary and their straight caps bound no area: {reason}"
+        raise InvalidAreaError(msg)
+
+
+def check_division(main: LineString, auxiliary: LineString, ring: "Floats", area: Polygon) -> None:
+    """Refuse curves that do not divide the boundary of ``area``, with the rule that is broken."""
+    shell = shapely.LineString(area.exterior.coords)
+    near = ON_BOUNDARY * float(np.hypot(*np.ptp(shapely.get_coordinates(shell), axis=0)))
+    for curve, name in ((main, "main"), (auxiliary, "auxiliary")):
+        points = shapely.get_coordinates(curve.segmentize(curve.length / BOUNDARY_SAMPLES))
+        off = shapely.distance(shapely.points(points), shell)
+        worst = int(np.argmax(off))
+        if off[worst] > near:
+            msg = f"{name} leaves the outer boundary of area at {place_text(points[worst])}"
+            raise InvalidAreaError(msg)
+    check_ring(main, auxiliary, ring)
+    shell_points = shapely.get_coordinates(shell)
+    off = shapely.distance(shapely.points(shell_points), shapely.LineString(ring))
+    worst = int(np.argmax(off))
+    if off[worst] > near:
+        msg = (
+            f"the boundary of area at {place_text(shell_points[worst])} belongs to neither curve "
+            "and to no straight cap"
+        )
+        raise InvalidAreaError(msg)
