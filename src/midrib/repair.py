@@ -9,21 +9,24 @@ from midrib.ragged import place_text
 
 __all__ = ["repaired"]
 
-# Two readings of a defective ring agree if they differ by less than this share of the area, and a
-# repaired area is still one area if nothing larger falls off.
+# The readings of a defective area agree if they differ by less than this share of it; pieces
+# smaller than that are left out.
 DOUBT = 1e-3
 
 
-def repaired(area: Polygon) -> tuple[Polygon, str]:
-    """Return a valid polygon for an invalid one, and what was wrong with it.
+def repaired(area: Polygon) -> tuple[list[Polygon], str]:
+    """Return valid polygons for an invalid one, and what was wrong with it.
 
-    The area is repaired by structure (rings are outlines) and by linework (rings are lines, odd
-    and even). If both give, but for a thousandth, the same single polygon, that is the answer.
+    The area is read in three ways: by structure (rings are outlines), by linework (rings are
+    lines, odd and even) and by its signed area (what a ring winds around twice counts twice, what
+    it winds around the other way is taken off). Where all three are the same size but for a
+    thousandth there is no doubt: a spike, a tiny curl, a ring that touches itself and so falls
+    into two. A bow-tie is refused: its lobes are wound against each other.
 
     Raises
     ------
     InvalidAreaError
-        If a coordinate is not finite, the area is nothing, or the two readings differ.
+        If a coordinate is not finite, the area is nothing, or the readings differ.
     """
     coordinates = shapely.get_coordinates(area)
     bad = np.flatnonzero(~np.isfinite(coordinates).all(axis=1))
@@ -32,19 +35,19 @@ def repaired(area: Polygon) -> tuple[Polygon, str]:
         raise InvalidAreaError(msg)
     reason = readable(shapely.is_valid_reason(area))
     by_structure = shapely.make_valid(area, method="structure", keep_collapsed=False)
-    by_linework = shapely.make_valid(area, method="linework")
-    parts = shapely.get_parts(by_structure)
-    if by_structure.area == 0.0:
+    size = by_structure.area
+    if size == 0.0:
         msg = f"the area is nothing: {reason}"
         raise InvalidAreaError(msg)
-    largest = parts[np.argmax(shapely.area(parts))]
-    lost = by_structure.area - largest.area
-    unsure = abs(by_structure.area - by_linework.area)
-    if not isinstance(largest, Polygon) or lost + unsure > DOUBT * by_structure.area:
+    by_linework = shapely.make_valid(area, method="linework").area
+    by_sign = area.area  # of the shell less those of the holes
+    doubt = (abs(size - by_linework) + abs(size - by_sign)) / size
+    if doubt > DOUBT:
         msg = f"the area is not valid and can be read in more than one way: {reason}"
         raise InvalidAreaError(msg)
-    share = (lost + unsure) / by_structure.area
-    return largest, reason + (f", {share:.2g} of the area left out" if share > 0.0 else "")
+    parts = [part for part in shapely.get_parts(by_structure) if part.area > DOUBT * size]
+    lost = max(1.0 - sum(part.area for part in parts) / size, 0.0)
+    return parts, reason + (f", {lost:.2g} of the area left out" if lost > doubt else "")
 
 
 def readable(reason: str) -> str:

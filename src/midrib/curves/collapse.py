@@ -73,7 +73,8 @@ def collapse(
     -------
     LineString or MultiLineString; object array; GeoSeries
         As ``areas`` is one area, an array (same shape) or a GeoSeries (index and CRS kept). A
-        MultiPolygon gives a MultiLineString, part by part; parts that are refused are left out.
+        MultiPolygon gives a MultiLineString, part by part; parts that are refused are left out. A
+        Polygon gives one only if its repair has made several of it.
 
     Raises
     ------
@@ -199,7 +200,7 @@ def collapse_all(
             found[part.index].append(line)
     for i, pieces in enumerate(found):
         if pieces:
-            is_multi = isinstance(areas[i], MultiPolygon)
+            is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
             lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
     return lines
 
@@ -225,12 +226,12 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
                 yield Part(i, number, polygon)
                 continue
             try:
-                better, reason = repaired(polygon)
+                pieces, reason = repaired(polygon)
             except InvalidAreaError as error:
                 log.refuse(i, number, error)
                 continue
             log.note(i, number, "repaired", reason)
-            yield Part(i, number, better)
+            yield from (Part(i, number, piece) for piece in pieces)
 
 
 def lines_of(

@@ -325,22 +325,21 @@ def string_beads(radii: Radii, ends: list[EndPoint]) -> Beads:
 def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
     """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
 
-    Without holes, and with radii that never turn back, the chain has no loops (method, section 5).
+    Radii that never turn back cut an area without holes into pieces in order, so that the chain
+    has no loops; radii that lie on each other or on the boundary are the exception to that.
     """
     ends = end_points(layout, rule)
     beads = string_beads(radii, ends)
     points, source = join_beads(layout, beads)
     if rule not in RULES and ends:
         refuse_ends_outside(ends, source, beads.point.shape[0])
-    is_orderly = rule in ("main", "caps", None) and bool(np.all(np.diff(radii.arc) >= 0.0))
     loops = 0
-    if layout.has_holes or not is_orderly:
-        for _ in range(LOOP_ROUNDS):
-            cut, row, found = cut_loops(points)
-            if not found:
-                break
-            loops += found
-            points, source = join_again(layout, beads, cut, row, source)
+    for _ in range(LOOP_ROUNDS):
+        cut, row, found = cut_loops(points)
+        if not found:
+            break
+        loops += found
+        points, source = join_again(layout, beads, cut, row, source)
     return Path(points, source, height_along(layout, radii, points, source, bool(ends)), loops)
 
 
@@ -363,7 +362,7 @@ def join_again(
     hint = np.where((hint < 0) | (hint >= new), 0, hint)
     again = Beads(cut, beads.origin[hint], beads.side[hint], beads.vertex[hint])
     points, place = join_beads(layout, again)
-    return points, np.where(place < 0, place, came_from[place])
+    return points, np.where(place < 0, place, came_from[np.maximum(place, 0)])
 
 
 def refuse_ends_outside(ends: list[EndPoint], source: Ints, count: int) -> None:
