@@ -5,9 +5,9 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from midrib.errors import InvalidAreaError, InvariantError
-from midrib.kernels.mesh import Mesh, mesh_rings, split_side
+from midrib.kernels.division import AGAINST, SHORTER, WITH, divide_shell
+from midrib.kernels.mesh import Mesh, mesh_rings
 from midrib.kernels.rings import Rings
-from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
 __all__ = [
@@ -18,12 +18,12 @@ __all__ = [
     "Scale",
     "boundary_of",
     "lay_out",
-    "place_point",
 ]
 
 Scale = tuple[float, float]  # length of one unit of x and of y
 Main = Literal["shorter", "with", "against"]
-HALF = 0.5
+RULES = {"shorter": SHORTER, "with": WITH, "against": AGAINST}
+NO_HEIGHT = np.empty(0)
 
 
 class Chain(NamedTuple):
@@ -60,21 +60,12 @@ class Layout(NamedTuple):
     middle: tuple[int, int]  # mesh vertices in the middle of the start and of the end
     scale: Scale
     height: Floats | None
-    has_holes: bool
+    mean_width: float  # area within the shell over the mean length of the two curves
 
     @property
     def shares_start(self) -> bool:
         """Whether the two curves start in the same vertex."""
         return bool(self.main.vertex[0] == self.auxiliary.vertex[0])
-
-    @property
-    def mean_width(self) -> float:
-        """Area within the shell over the mean length of the two curves."""
-        around = np.concatenate([self.main.vertex, self.auxiliary.vertex[::-1]])
-        x, y = self.mesh.x[around] * self.scale[0], self.mesh.y[around] * self.scale[1]
-        x, y = x - x[0], y - y[0]
-        doubled = abs(float(x[:-1] @ y[1:] - x[1:] @ y[:-1]))
-        return doubled / (self.main.length + self.auxiliary.length)
 
     @property
     def shares_end(self) -> bool:
@@ -123,70 +114,38 @@ def with_touches(rings: Rings, touches: Ints) -> Rings:
     return Rings(rings.x[index], rings.y[index], ring_next, rings.origin[index], n_shell)
 
 
-def place_point(boundary: Boundary, k: int, share: float) -> tuple[Boundary, int]:
-    """Make the point ``share`` of the way along shell segment k a vertex.
-
-    Return the new boundary and the vertex's place in the order; a point that cannot be told from
-    an end of the segment is that end.
-    """
-    mesh, order, n = boundary.mesh, boundary.order, boundary.order.size
-    a, b = order[k], order[(k + 1) % n]
-    x = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
-    y = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-    old = boundary.side[k]
-    mesh, side = split_side(mesh, old, x, y)
-    if side < 0:
-        return boundary, k if share <= HALF else (k + 1) % n
-    # The triangle's next side has moved to the new triangle, where it follows the new side.
-    sides = np.where(boundary.side == next_side(old), side + 1, boundary.side)
-    height = boundary.height
-    if height is not None:
-        height = np.append(height, height[a] + share * (height[b] - height[a]))
-    return boundary._replace(
-        mesh=mesh,
-        order=np.insert(order, k + 1, mesh.x.size - 1),
-        side=np.insert(sides, k + 1, side),
-        height=height,
-    ), k + 1
-
-
-def chain_of(boundary: Boundary, start: int, stop: int, scale: Scale) -> Chain:
-    """The part of the shell from place ``start`` in its order on to place ``stop``."""
-    n = boundary.order.size
-    places = np.arange(start, start + (stop - start) % n + 1) % n
-    return measured(boundary.mesh, boundary.order[places], boundary.side[places[:-1]], scale)
-
-
-def measured(mesh: Mesh, vertex: Ints, side: Ints, scale: Scale) -> Chain:
-    """Chain with its arc lengths."""
-    dx, dy = np.diff(mesh.x[vertex]) * scale[0], np.diff(mesh.y[vertex]) * scale[1]
-    arc = np.zeros(vertex.size)
-    np.cumsum(np.hypot(dx, dy), out=arc[1:])
-    return Chain(vertex, side, arc)
-
-
 def lay_out(
-    boundary: Boundary,
-    start: tuple[int, int],
-    stop: tuple[int, int],
-    middle: tuple[int, int],
-    scale: Scale,
-    main: Main = "shorter",
+    boundary: Boundary, places: Ints, shares: Floats, scale: Scale, main: Main = "shorter"
 ) -> Layout:
-    """Divide a shell at two ends.
+    """Divide an area at two ends, given as in ``kernels.division``.
 
-    Each end is a pair of places in the order, before and after a cap in the shell's direction, or
-    the same place twice; ``middle`` are the vertices in their middles. The main curve is the part
-    that runs ``with`` the shell from start to stop, or the one ``against`` it, or the shorter one:
-    the construction follows the roughness of the main curve, and a rough bank is a long one.
+    The main curve is the part of the shell that runs ``with`` it from start to end, or the one
+    ``against`` it, or the shorter one: the construction follows the roughness of the main curve,
+    and a rough bank is a long one.
+
+    Raises
+    ------
+    InvalidAreaError
+        If the ends are one point.
     """
-    first = chain_of(boundary, start[1], stop[0], scale)
-    second = chain_of(boundary, stop[1], start[0], scale)
-    beside = measured(boundary.mesh, second.vertex[::-1].copy(), second.side[::-1].copy(), scale)
-    is_first = first.length <= beside.length if main == "shorter" else main == "with"
-    chains = (first, beside) if is_first else (beside, first)
-    target = np.full(boundary.mesh.tri.size, -1, np.intp)
-    target[chains[1].side] = np.arange(chains[1].side.size)
+    height = NO_HEIGHT if boundary.height is None else boundary.height
+    is_divided, mesh, height, middle, *chains, target, width = divide_shell(
+        boundary.mesh, boundary.order, boundary.side, height, places, shares, RULES[main], *scale
+    )
+    if not is_divided:
+        v = middle[0]
+        msg = (
+            "start and end are the same point of the boundary, "
+            f"({mesh.x[v]:.12g}, {mesh.y[v]:.12g})"
+        )
+        raise InvalidAreaError(msg)
     return Layout(
-        boundary.mesh, *chains, target, middle, scale, boundary.height, boundary.has_holes
+        mesh,
+        Chain(*chains[:3]),
+        Chain(*chains[3:]),
+        target,
+        (int(middle[0]), int(middle[1])),
+        scale,
+        height if height.size else None,
+        width,
     )

@@ -21,7 +21,7 @@ from midrib.kernels.loops import cut_loops
 from midrib.kernels.paths import join_points
 from midrib.kernels.visibility import nearest_visible
 from midrib.layout import Layout
-from midrib.curves.stations import StationRule, points_at
+from midrib.curves.stations import StationRule, Stations
 from midrib.types import Bools, Floats, Ints
 
 __all__ = [
@@ -69,80 +69,54 @@ class Path(NamedTuple):
 
 def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Radii:
     """Place the stations on the main curve and draw the radii from them."""
-    main = layout.main
-    stations = rule.on(main, layout.mean_width / 2.0)
-    points, segment, vertex = points_at(main, layout.mesh.x, layout.mesh.y, stations)
-    if rule.skip is not None:
-        keep = rule.kept(stations, points)
-        stations, points = stations[keep], points[keep]
-        segment, vertex = segment[keep], vertex[keep]
-    side = main.side[segment]
-    low, high = np.full(stations.size, -np.inf), np.full(stations.size, np.inf)
+    mesh = layout.mesh
+    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width / 2.0)
+    low, high = np.full(stations.arc.size, -np.inf), np.full(stations.arc.size, np.inf)
     if isinstance(clearance, int | float):
         if layout.shares_start:
             low[:] = clearance
         if layout.shares_end:
             high[:] = layout.auxiliary.length - clearance
-    radii = look_from(layout, stations, points, side, vertex, low, high)
-    if clearance in ("station", "proportional"):
-        crowded = crowd_the_ends(layout, radii, clearance, low, high)
-        if crowded.any():
-            again = look_from(layout, stations, points, side, vertex, low, high, crowded)
+    radii = look_from(layout, stations, low, high)
+    if clearance in ("station", "proportional") and (layout.shares_start or layout.shares_end):
+        crowded = np.flatnonzero(crowd_the_ends(layout, radii, clearance, low, high))
+        if crowded.size:
+            some = Stations(*(column[crowded] for column in stations))
+            again = look_from(layout, some, low[crowded], high[crowded])
             radii = replaced(radii, again, crowded)
     return radii
 
 
-def look_from(
-    layout: Layout,
-    stations: Floats,
-    points: Floats,
-    side: Ints,
-    vertex: Ints,
-    low: Floats,
-    high: Floats,
-    only: Bools | None = None,
-) -> Radii:
-    """Nearest visible points from stations, all or only some."""
-    chosen = slice(None) if only is None else np.flatnonzero(only)
-    x, y = points[chosen, 0].copy(), points[chosen, 1].copy()
+def look_from(layout: Layout, stations: Stations, low: Floats, high: Floats) -> Radii:
+    """Nearest visible points from stations, with arc lengths from low to high."""
+    x, y = np.ascontiguousarray(stations.point.T)
     row, found, kind = nearest_visible(
-        layout.mesh,
-        layout.target,
-        layout.auxiliary.vertex,
-        layout.auxiliary.arc,
-        x,
-        y,
-        side[chosen],
-        vertex[chosen],
-        low[chosen],
-        high[chosen],
-        *layout.scale,
-    )
-    if only is not None:
-        row = np.flatnonzero(only)[row]
+        layout.mesh, layout.target, layout.auxiliary.vertex, layout.auxiliary.arc,
+        x, y, stations.side, stations.vertex, low, high, *layout.scale,
+    )  # fmt: skip
     return Radii(
-        stations,
+        stations.arc,
         row,
-        points[row],
+        stations.point[row],
         found[:, :2],
         found[:, 2],
         np.sqrt(found[:, 3]),
         kind,
-        side[row],
-        vertex[row],
+        stations.side[row],
+        stations.vertex[row],
     )
 
 
-def replaced(radii: Radii, again: Radii, crowded: Bools) -> Radii:
+def replaced(radii: Radii, again: Radii, crowded: Ints) -> Radii:
     """Radii with those of the crowded stations drawn again."""
-    keep = ~crowded[radii.station]
-    station = np.concatenate([radii.station[keep], again.station])
+    keep = ~np.isin(radii.station, crowded)
+    station = np.concatenate([radii.station[keep], crowded[again.station]])
     order = np.argsort(station, kind="stable")
-    columns = [
+    columns = (
         np.concatenate([old[keep], new])[order]
-        for old, new in zip(radii[1:], again[1:], strict=True)
-    ]
-    return Radii(radii.stations, *columns)
+        for old, new in zip(radii[2:], again[2:], strict=True)
+    )
+    return Radii(radii.stations, station[order], *columns)
 
 
 def crowd_the_ends(

@@ -4,17 +4,18 @@ Source: the paper's section 4 and its Equation 1, d = L / count = L percent / 10
 """
 
 from collections.abc import Callable, Sequence
-from typing import TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
 from midrib.errors import ParameterError
+from midrib.kernels.stations import place_stations
 from midrib.layout import Chain
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Skip", "StationRule", "points_at", "station_rule"]
+__all__ = ["Skip", "StationRule", "Stations", "station_rule"]
 
 SkipItem: TypeAlias = (
     int | slice | shapely.Polygon | shapely.MultiPolygon | Callable[[Floats, Floats], Bools]
@@ -23,6 +24,15 @@ Skip: TypeAlias = SkipItem | Sequence[SkipItem]
 SAME_STATION = 2.0**-40  # of the main curve's length: stations nearer than this are one
 MOST_STATIONS = 50_000_000
 LEAST_COUNT = 2
+
+
+class Stations(NamedTuple):
+    """Points P on a main curve."""
+
+    arc: Floats  # (n,) arc lengths
+    point: Floats  # (n, 2)
+    side: Ints  # (n,) boundary side
+    vertex: Ints  # (n,) mesh vertex, or -1
 
 
 class StationRule:
@@ -79,15 +89,35 @@ class StationRule:
         self.spacing, self.count, self.percent = spacing, count, percent
         self.vertices, self.stations, self.skip = vertices, own, skip
 
-    def on(self, main: Chain, half_width: float) -> Floats:
-        """Stations on one main curve, ascending.
+    def on(self, main: Chain, x: Floats, y: Floats, half_width: float) -> "Stations":
+        """Stations on one main curve, ascending; x and y are those of mesh vertices.
 
         Without any rule for the interval, and no stations given, it is the largest commensurate
         one (L / count) not above ``half_width``.
+
+        Raises
+        ------
+        ParameterError
+            If there are none, or absurdly many.
         """
-        length = main.length
-        parts = []
+        own = self.own(main.length, half_width)
+        tolerance = SAME_STATION * main.length
+        arc, points, segment, vertex = place_stations(
+            own, self.vertices, tolerance, main.arc, main.vertex, x, y
+        )
+        placed = Stations(arc, points, main.side[segment], vertex)
+        if self.skip is not None:
+            keep = self.kept(arc, points)
+            placed = Stations(*(column[keep] for column in placed))
+        if placed.arc.size == 0:
+            msg = "no station is left on the main curve, expected at least one"
+            raise ParameterError(msg)
+        return placed
+
+    def own(self, length: float, half_width: float) -> Floats:
+        """Stations by interval and those given, on a curve of the given length."""
         interval = self.interval(length, half_width)
+        by_interval = np.empty(0)
         if interval is not None:
             n = np.floor(length / interval * (1.0 + SAME_STATION))
             if n > MOST_STATIONS:
@@ -95,19 +125,15 @@ class StationRule:
                 raise ParameterError(msg)
             # i L / n rather than i d: commensurate stations stay so when the curve is reversed.
             steps = np.arange(int(n) + 1)
-            even = abs(length - n * interval) <= SAME_STATION * length
-            parts.append(length * (steps / n) if even else interval * steps)
-        if self.stations is not None:
-            outside = self.stations[(self.stations < 0.0) | (self.stations > length)]
-            if outside.size:
-                msg = (
-                    f"station {outside[0]:.12g} is not on the main curve, "
-                    f"expected 0 to {length:.12g}"
-                )
-                raise ParameterError(msg)
-            parts.append(self.stations)
-        own = np.concatenate(parts) if parts else np.empty(0)
-        return merged(own, main.arc) if self.vertices else np.unique(own)
+            is_even = abs(length - n * interval) <= SAME_STATION * length
+            by_interval = length * (steps / n) if is_even else interval * steps
+        if self.stations is None:
+            return by_interval
+        outside = self.stations[(self.stations < 0.0) | (self.stations > length)]
+        if outside.size:
+            msg = f"station {outside[0]:.12g} is not on the main curve, expected 0 to {length:.12g}"
+            raise ParameterError(msg)
+        return np.union1d(by_interval, self.stations)
 
     def interval(self, length: float, half_width: float) -> float | None:
         """Interval on a curve of the given length, None if the rule has none."""
@@ -144,15 +170,6 @@ def station_rule(
     return StationRule(spacing, count, percent, vertices, stations, skip)
 
 
-def merged(own: Floats, vertices: Floats) -> Floats:
-    """Vertices, and the stations that are not rounded images of one."""
-    after = np.searchsorted(vertices, own)
-    above = vertices[np.minimum(after, vertices.size - 1)]
-    below = vertices[np.maximum(after - 1, 0)]
-    gap = np.minimum(np.abs(above - own), np.abs(own - below))
-    return np.unique(np.concatenate([vertices, own[gap > SAME_STATION * vertices[-1]]]))
-
-
 def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
     """Which stations one item of ``skip`` names."""
     drop = np.zeros(stations.size, dtype=np.bool_)
@@ -170,9 +187,7 @@ def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
         drop[item] = True
         return drop
     if isinstance(item, shapely.Polygon | shapely.MultiPolygon):
-        return shapely.contains_xy(item, points[:, 0], points[:, 1]) | shapely.intersects_xy(
-            item, points[:, 0], points[:, 1]
-        )
+        return cast("Bools", shapely.intersects_xy(item, points[:, 0], points[:, 1]))
     if callable(item):
         mask = np.asarray(item(stations, points), dtype=np.bool_)
         if mask.shape != stations.shape:
@@ -181,26 +196,3 @@ def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
         return mask
     msg = f"skip is {item!r}, expected an index, a slice, a Polygon, a function or a list of them"
     raise ParameterError(msg)
-
-
-def points_at(chain: Chain, x: Floats, y: Floats, stations: Floats) -> tuple[Floats, Ints, Ints]:
-    """Points of a chain at stations: (n, 2) points, segments, and mesh vertices or -1.
-
-    Raises
-    ------
-    ParameterError
-        If there is no station.
-    """
-    if stations.size == 0:
-        msg = "no station is left on the main curve, expected at least one"
-        raise ParameterError(msg)
-    segment = np.searchsorted(chain.arc, stations, side="right") - 1
-    segment = np.minimum(segment, chain.side.size - 1)
-    start = chain.arc[segment]
-    share = (stations - start) / (chain.arc[segment + 1] - start)
-    a, b = chain.vertex[segment], chain.vertex[segment + 1]
-    ends = share == 1.0
-    points = np.empty((stations.size, 2))
-    points[:, 0] = np.where(ends, x[b], x[a] + share * (x[b] - x[a]))
-    points[:, 1] = np.where(ends, y[b], y[a] + share * (y[b] - y[a]))
-    return points, segment, np.where(share == 0.0, a, np.where(ends, b, -1))

@@ -21,7 +21,7 @@ from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
-__all__ = ["CAP", "POINT", "TIP", "far_pair", "shape_of_end"]
+__all__ = ["CAP", "POINT", "TIP", "far_pair", "propose_ends", "shape_of_end"]
 
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
@@ -104,7 +104,7 @@ def sweep(
     return farthest, longest
 
 
-@njit(entry=True)
+@njit()
 def far_pair(
     mesh: Mesh, n_shell: int, source: int, scale_x: float, scale_y: float, is_tree: bool
 ) -> Ints:
@@ -205,13 +205,15 @@ def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     return s
 
 
-@njit(entry=True)
-def shape_of_end(x: Floats, y: Floats, vertex: int, width: float) -> tuple[int, int, int, float]:
+@njit()
+def shape_of_end(
+    x: Floats, y: Floats, arc: Floats, vertex: int, width: float
+) -> tuple[int, int, int, float]:
     """What the end of an area looks like around one of its far vertices.
 
     Parameters
     ----------
-    x, y : (n,) the shell, turning left, in lengths
+    x, y, arc : the shell, turning left, in lengths: (n,) vertices, (n + 1,) arc lengths
     vertex : index of the far vertex
     width : mean width of the area; roughness much finer than it is overlooked
 
@@ -221,11 +223,6 @@ def shape_of_end(x: Floats, y: Floats, vertex: int, width: float) -> tuple[int, 
         CAP: the corners i and j, in the shell's direction; TIP: vertex i; POINT: ``share`` of the
         way along segment i.
     """
-    n = x.size
-    arc = np.zeros(n + 1)
-    for k in range(n):
-        j = k + 1 if k + 1 < n else 0
-        arc[k + 1] = arc[k] + np.hypot(x[j] - x[k], y[j] - y[k])
     # 1. A straight run at the vertex, forward or backward; the shorter one is the lid.
     forward, backward = straight_run(x, y, vertex, 1), straight_run(x, y, vertex, -1)
     inside_run = straight_run(x, y, backward, 1)
@@ -244,6 +241,88 @@ def shape_of_end(x: Floats, y: Floats, vertex: int, width: float) -> tuple[int, 
     if np.hypot(ax - bx, ay - by) < TIP_CHORD * arm:
         return TIP, vertex, vertex, 0.0
     # 3. Neither: the point that leaves the banks level.
-    s = levelled(x, y, arc, s, min(width, arc[n] / 8.0))
+    s = levelled(x, y, arc, s, min(width, arc[-1] / 8.0))
     _, _, k, share = point_at(x, y, arc, s)
     return POINT, k, k, share
+
+
+@njit()
+def mean_width(x: Floats, y: Floats, arc: Floats) -> float:
+    """Width of the rectangle with a shell's area and perimeter, or of the square with its area."""
+    doubled = 0.0
+    for i in range(1, x.size - 1):
+        dx, dy = x[i] - x[0], y[i] - y[0]
+        doubled += dx * (y[i + 1] - y[0]) - (x[i + 1] - x[0]) * dy
+    area, half = abs(doubled) / 2.0, arc[-1] / 2.0
+    root = (half / 2.0) ** 2 - area
+    return area / (half / 2.0 + np.sqrt(root)) if root > 0.0 else np.sqrt(area)
+
+
+@njit()
+def leave_two_banks(places: Ints, shares: Floats, n: int) -> bool:
+    """Whether something of a shell of n vertices is left on both sides between two ends."""
+    is_point_a, is_point_b = places[0, 0] == places[0, 1], places[1, 0] == places[1, 1]
+    if is_point_a and is_point_b:
+        return places[0, 0] != places[1, 0] or shares[0] != shares[1]
+    first = (places[1, 0] + shares[1] - places[0, 1] - shares[0]) % n
+    second = (places[0, 0] + shares[0] - places[1, 1] - shares[1]) % n
+    caps = (places[0, 1] - places[0, 0]) % n + (places[1, 1] - places[1, 0]) % n
+    return first > 0.0 and second > 0.0 and abs(first + second + caps - n) < 0.5
+
+
+@njit(entry=True)
+def propose_ends(
+    mesh: Mesh,
+    order: Ints,
+    n_shell: int,
+    source: int,
+    is_tree: bool,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[Ints, Floats]:
+    """Where an area begins and ends.
+
+    Parameters
+    ----------
+    mesh : the area
+    order : (n,) shell vertices in order
+    n_shell : mesh vertices below it are the shell's
+    source : a mesh vertex to keep as the first end, or -1
+    is_tree : whether the area has no holes
+    scale_x, scale_y : lengths of one unit of x and of y
+
+    Returns
+    -------
+    places, shares : (2, 2) and (2,); see ``division``. The first end is the one farther left.
+    """
+    n = order.size
+    x, y, arc = np.empty(n), np.empty(n), np.zeros(n + 1)
+    place_of = np.zeros(mesh.x.size, np.intp)
+    for i in range(n):
+        place_of[order[i]] = i
+        x[i], y[i] = mesh.x[order[i]] * scale_x, mesh.y[order[i]] * scale_y
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        arc[i + 1] = arc[i] + np.hypot(x[j] - x[i], y[j] - y[i])
+    pair = far_pair(mesh, n_shell, source, scale_x, scale_y, is_tree)
+    a, b = pair[0], pair[1]
+    a_is_right = mesh.x[a] > mesh.x[b] or (mesh.x[a] == mesh.x[b] and mesh.y[a] > mesh.y[b])
+    if source < 0 and a_is_right:
+        pair[0], pair[1] = b, a
+    width = mean_width(x, y, arc)
+    far, shaped = np.empty((2, 2), np.intp), np.empty((2, 2), np.intp)
+    no_shares, shares = np.zeros(2), np.zeros(2)
+    for i in range(2):
+        far[i, 0] = far[i, 1] = shaped[i, 0] = shaped[i, 1] = place_of[pair[i]]
+        if source < 0 or i == 1:
+            kind, p, q, share = shape_of_end(x, y, arc, pair[i], width)
+            shaped[i, 0], shaped[i, 1] = p, q
+            shares[i] = share if kind == POINT else 0.0
+    # Where the shapes of both ends leave no banks between them, one of them is only its vertex.
+    for which in range(3):
+        places, at = shaped.copy(), shares.copy()
+        if which > 0:
+            places[2 - which], at[2 - which] = far[2 - which], 0.0
+        if leave_two_banks(places, at, n):
+            return places, at
+    return far, no_shares

@@ -102,7 +102,7 @@ def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float,
     return px, py, False
 
 
-@njit(entry=True)
+@njit()
 def split_side(mesh: Mesh, e: int, px: float, py: float) -> tuple[Mesh, int]:
     """Insert a vertex at p, a point on boundary side e; return the new mesh and the new side.
 

@@ -1,0 +1,212 @@
+"""A shell divided at two ends: the vertices, sides and arc lengths of the two curves.
+
+ start.place             stop.other         An end is a pair of places in the shell's order:
+     o-----------<-----------o              before and after its cap, or the same place twice.
+cap  |                       |  cap         The shell turns left, so the lower curve here runs
+     o----------->-----------o              with it; the upper one is turned to run beside it.
+ start.other             stop.place
+"""
+
+import numpy as np
+
+from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh, split_side
+from midrib.kernels.triangulation import next_side
+from midrib.types import Floats, Ints
+
+__all__ = ["AGAINST", "SHORTER", "WITH", "divide_shell"]
+
+SHORTER, WITH, AGAINST = 0, 1, 2
+HALF = 0.5
+
+
+@njit()
+def insert_one(array: Ints, at: int, value: int) -> Ints:
+    """Copy of an array of integers with one more in it."""
+    longer = np.empty(array.size + 1, np.intp)
+    longer[:at] = array[:at]
+    longer[at] = value
+    longer[at + 1 :] = array[at:]
+    return longer
+
+
+@njit()
+def place_point(
+    mesh: Mesh, order: Ints, side: Ints, height: Floats, k: int, share: float
+) -> tuple[Mesh, Ints, Ints, Floats, int]:
+    """Make the point ``share`` of the way along shell segment k a vertex.
+
+    Return mesh, order, sides and heights with it and its place in the order; a point that cannot
+    be told from an end of the segment is that end.
+    """
+    n = order.size
+    a, b = order[k], order[(k + 1) % n]
+    x = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
+    y = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
+    split, new = split_side(mesh, side[k], x, y)
+    if new < 0:
+        return mesh, order, side, height, k if share <= HALF else (k + 1) % n
+    # The triangle's next side has moved to the new triangle, where it follows the new side.
+    moved = next_side(side[k])
+    sides = insert_one(side, k + 1, new)
+    for i in range(sides.size):
+        if sides[i] == moved:
+            sides[i] = new + 1
+    if height.size > 0:
+        height = np.append(height, height[a] + share * (height[b] - height[a]))
+    return split, insert_one(order, k + 1, split.x.size - 1), sides, height, k + 1
+
+
+@njit()
+def middle_of_cap(
+    mesh: Mesh, order: Ints, place: int, other: int, scale_x: float, scale_y: float
+) -> tuple[int, float]:
+    """Segment and share of the point halfway along the shell from ``place`` on to ``other``."""
+    n = order.size
+    length = 0.0
+    for round_ in range(2):
+        half, so_far = length / 2.0, 0.0
+        k = place
+        while k != other:
+            a, b = order[k], order[(k + 1) % n]
+            step = np.hypot((mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y)
+            if round_ == 1 and so_far + step >= half:
+                share = (half - so_far) / step
+                return (k, share) if share < 1.0 else ((k + 1) % n, 0.0)
+            so_far += step
+            k = (k + 1) % n
+        length = so_far
+    return place, 0.0
+
+
+@njit()
+def chain(
+    mesh: Mesh,
+    order: Ints,
+    side: Ints,
+    start: int,
+    stop: int,
+    is_backward: bool,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[Ints, Ints, Floats]:
+    """Vertices, sides and arc lengths of the shell from ``start`` on to ``stop``, or back."""
+    n = order.size
+    m = (stop - start) % n
+    vertex, sides, arc = np.empty(m + 1, np.intp), np.empty(m, np.intp), np.zeros(m + 1)
+    for i in range(m + 1):
+        vertex[i] = order[(start + (m - i if is_backward else i)) % n]
+    for i in range(m):
+        sides[i] = side[(start + (m - 1 - i if is_backward else i)) % n]
+        a, b = vertex[i], vertex[i + 1]
+        dx, dy = (mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y
+        arc[i + 1] = arc[i] + np.hypot(dx, dy)
+    return vertex, sides, arc
+
+
+@njit()
+def doubled_area(mesh: Mesh, main: Ints, auxiliary: Ints, scale_x: float, scale_y: float) -> float:
+    """Twice the area between two chains that run alongside."""
+    total = 0.0
+    x0, y0 = mesh.x[main[0]], mesh.y[main[0]]
+    m, n = main.size, main.size + auxiliary.size
+    for i in range(n):
+        j = (i + 1) % n
+        a = main[i] if i < m else auxiliary[n - 1 - i]
+        b = main[j] if j < m else auxiliary[n - 1 - j]
+        total += (mesh.x[a] - x0) * (mesh.y[b] - y0) - (mesh.x[b] - x0) * (mesh.y[a] - y0)
+    return abs(total) * scale_x * scale_y
+
+
+@njit(entry=True)
+def divide_shell(
+    mesh: Mesh,
+    order: Ints,
+    side: Ints,
+    height: Floats,
+    places: Ints,
+    shares: Floats,
+    rule: int,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[bool, Mesh, Floats, Ints, Ints, Ints, Floats, Ints, Ints, Floats, Ints]:
+    """Divide a shell at two ends.
+
+    Parameters
+    ----------
+    mesh : the area
+    order, side : (n,) shell vertices in order and the boundary side that leaves each
+    height : Z of each mesh vertex, or empty
+    places : (2, 2) the two ends as drawn above
+    shares : (2,) how far along the segment that leaves its place an end lies that is no cap
+    rule : which part is the main curve: the one that runs WITH the shell from start to stop, the
+        one AGAINST it, or the SHORTER
+    scale_x, scale_y : lengths of one unit of x and of y
+
+    Returns
+    -------
+    is_divided : False if the ends are one point
+    mesh, height : with the middles of caps and the ends inside segments as vertices
+    middle : (2,) the mesh vertices in the middle of the ends
+    vertex, side, arc : of the main curve, then of the auxiliary one
+    target : for each half-edge the auxiliary segment on it, or -1
+    width : area between the curves over their mean length
+    """
+    ends, at = places.copy(), np.empty(2, np.intp)
+    share = shares.copy()
+    for i in range(2):
+        at[i] = ends[i, 0]
+        if ends[i, 0] != ends[i, 1]:
+            at[i], share[i] = middle_of_cap(mesh, order, ends[i, 0], ends[i, 1], scale_x, scale_y)
+    # The later place first, so that inserting one does not move the other.
+    first = 0 if (at[0] > at[1] or (at[0] == at[1] and share[0] > share[1])) else 1
+    middle = np.empty(2, np.intp)
+    for i in (first, 1 - first):
+        place, size = at[i], order.size
+        is_point = ends[i, 0] == ends[i, 1]
+        if share[i] > 0.0:
+            mesh, order, side, height, place = place_point(
+                mesh, order, side, height, at[i], share[i]
+            )
+        if order.size > size:
+            for j in range(2):
+                for k in range(2):
+                    if ends[j, k] >= place:
+                        ends[j, k] += 1
+        if is_point:
+            ends[i, 0] = ends[i, 1] = place
+        middle[i] = order[place]
+    is_divided = ends[0, 1] != ends[1, 0] and ends[1, 1] != ends[0, 0]
+    vertex_w, side_w, arc_w = chain(
+        mesh, order, side, ends[0, 1], ends[1, 0], False, scale_x, scale_y
+    )
+    vertex_a, side_a, arc_a = chain(
+        mesh, order, side, ends[1, 1], ends[0, 0], True, scale_x, scale_y
+    )
+    if rule == AGAINST or (rule == SHORTER and arc_a[-1] < arc_w[-1]):
+        vertex_w, side_w, arc_w, vertex_a, side_a, arc_a = (
+            vertex_a,
+            side_a,
+            arc_a,
+            vertex_w,
+            side_w,
+            arc_w,
+        )
+    target = np.full(mesh.tri.size, -1, np.intp)
+    for j in range(side_a.size):
+        target[side_a[j]] = j
+    width = doubled_area(mesh, vertex_w, vertex_a, scale_x, scale_y) / (arc_w[-1] + arc_a[-1])
+    return (
+        is_divided,
+        mesh,
+        height,
+        middle,
+        vertex_w,
+        side_w,
+        arc_w,
+        vertex_a,
+        side_a,
+        arc_a,
+        target,
+        width,
+    )
