@@ -1,0 +1,122 @@
+"""Lengths with units: "2m" in metres, "10ft" in feet, "2" in the units of the CRS.
+
+The CRS is PROJJSON text, so that no projection library is needed to learn its unit.
+Source of the units: international yard and pound agreement of 1959; US survey foot 1200/3937 m.
+"""
+
+import json
+import re
+from typing import Any, NamedTuple
+
+from midrib.errors import ParameterError
+
+__all__ = ["Unit", "is_geographic", "length_in", "unit_of"]
+
+METRES = {
+    "mm": 0.001,
+    "cm": 0.01,
+    "dm": 0.1,
+    "m": 1.0,
+    "km": 1000.0,
+    "in": 0.0254,
+    "ft": 0.3048,
+    "usft": 1200.0 / 3937.0,
+    "yd": 0.9144,
+    "mi": 1609.344,
+    "nmi": 1852.0,
+}
+LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-zA-Z]*)\s*")
+
+
+class Unit(NamedTuple):
+    """A unit of length: its name and how many metres it has."""
+
+    name: str
+    metres: float
+
+
+METRE = Unit("m", 1.0)
+
+
+def length_in(text: str, crs: str | None, name: str) -> float:
+    """A length in the unit of a CRS; metres in a geographic one, and where none is written.
+
+    Parameters
+    ----------
+    text : str
+        A number, alone or with a unit: ``"2"``, ``"2m"``, ``"50 cm"``, ``"10ft"``.
+    crs : str or None
+        PROJJSON.
+    name : str
+        What the length is for, named in errors.
+
+    Raises
+    ------
+    ParameterError
+        If it is no length, or has a unit and the CRS does not tell its own.
+
+    Examples
+    --------
+    >>> length_in("2.5", None, "--spacing")
+    2.5
+    """
+    match = LENGTH.fullmatch(text)
+    if match is None or match[2] not in {"", *METRES}:
+        msg = (
+            f"{name} is {text!r}, expected a number, alone (units of the CRS) or with one of "
+            f"{', '.join(METRES)}: 2m"
+        )
+        raise ParameterError(msg)
+    if not match[2]:
+        return float(match[1])
+    unit = unit_of(crs)
+    if unit is None:
+        msg = f"{name} is {text!r}, but IN has no CRS with a unit, expected a number without unit"
+        raise ParameterError(msg)
+    return float(match[1]) * METRES[match[2]] / unit.metres
+
+
+def unit_of(crs: str | None) -> Unit | None:
+    """Unit in which lengths are measured: that of the CRS, metres in a geographic one.
+
+    Examples
+    --------
+    >>> unit_of('{"type": "ProjectedCRS", "coordinate_system": {"axis": [{"unit": "metre"}]}}')
+    Unit(name='m', metres=1.0)
+    """
+    if is_geographic(crs):
+        return METRE
+    axes = horizontal(crs).get("coordinate_system", {}).get("axis", [])
+    unit = axes[0].get("unit") if axes else None
+    if unit == "metre":
+        return METRE
+    if isinstance(unit, dict) and "conversion_factor" in unit:
+        return Unit(str(unit["name"]), float(unit["conversion_factor"]))
+    return None
+
+
+def is_geographic(crs: str | None) -> bool:
+    """Whether coordinates are angles of longitude and latitude.
+
+    Raises
+    ------
+    ParameterError
+        If they are angles, but not degrees.
+    """
+    system = horizontal(crs).get("coordinate_system", {})
+    if system.get("subtype") != "ellipsoidal":
+        return False
+    unit = system["axis"][0].get("unit")
+    if unit != "degree":
+        name = unit["name"] if isinstance(unit, dict) else unit
+        msg = f"the CRS of IN counts in units of {name!r}, expected degrees or lengths"
+        raise ParameterError(msg)
+    return True
+
+
+def horizontal(crs: str | None) -> dict[str, Any]:
+    """The part of a CRS that is about the plane."""
+    part: dict[str, Any] = {} if crs is None else json.loads(crs)
+    while "source_crs" in part or "components" in part:
+        part = part["source_crs"] if "source_crs" in part else part["components"][0]
+    return part

@@ -1,0 +1,148 @@
+"""Features to files: whole or not at all."""
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+import numpy as np
+import pyarrow as pa
+import pyogrio
+import pyogrio.errors
+import shapely
+
+from midrib.errors import ParameterError
+from midrib.formats.endings import PARQUET, SHAPEFILE_SIDES, format_of
+from midrib.formats.geoparquet import write_parquet
+from midrib.formats.reading import Geometries
+
+__all__ = ["Features", "check_free", "staged", "write_layer"]
+
+
+class Features(NamedTuple):
+    """What goes into one layer."""
+
+    layer: str
+    attributes: pa.Table
+    geometries: Geometries
+    geometry: str  # name of the column
+    kind: str  # of geometry, where none is there to tell
+    crs: str | None
+
+
+def check_free(paths: list[Path], *, overwrite: bool) -> None:
+    """Refuse places that cannot be written to, before any work is done.
+
+    Raises
+    ------
+    ParameterError
+        If a file is there already and is not to be overwritten, or its folder is not there.
+    """
+    for path in paths:
+        if not path.parent.is_dir():
+            msg = f"OUT {str(path)!r} lies in a folder that does not exist"
+            raise ParameterError(msg)
+        if path.exists() and not overwrite:
+            msg = f"OUT {str(path)!r} exists, give --overwrite to replace it"
+            raise ParameterError(msg)
+
+
+@contextmanager
+def staged(folder: Path) -> Iterator[Path]:
+    """A temporary folder inside ``folder``: what was written there moves up once all is well.
+
+    After an error or an interrupt nothing has moved and the temporary folder is gone.
+    """
+    with TemporaryDirectory(dir=folder, prefix=".midrib-") as name:
+        stage = Path(name)
+        yield stage
+        for path in sorted(stage.iterdir()):
+            target = folder / path.name
+            clear_remains(target, stage)
+            path.replace(target)
+
+
+def clear_remains(target: Path, stage: Path) -> None:
+    """Put aside what a rename would not replace: folders, and side files of a shapefile."""
+    sides = SHAPEFILE_SIDES if target.suffix.lower() == ".shp" else ()
+    old = [target] if target.is_dir() else []
+    old += [side for ending in sides if (side := target.with_suffix(f".{ending}")).exists()]
+    for path in old:
+        aside = stage / "replaced"
+        aside.mkdir(exist_ok=True)
+        path.replace(aside / path.name)
+
+
+def write_layer(path: Path, features: Features) -> list[str]:
+    """Write features as a layer of a file; into a file that is there if its format has layers.
+
+    Returns
+    -------
+    list of str
+        What the format could not keep.
+
+    Raises
+    ------
+    ParameterError
+        If the format cannot hold the features.
+    """
+    target = format_of(path)
+    if target.is_drawing:
+        there = features.geometries[~shapely.is_missing(features.geometries)]
+        features = features._replace(attributes=pa.table({}), geometries=there)
+    geometries, kind = uniform(features.geometries, features.kind)
+    wkb = pa.array(shapely.to_wkb(geometries, flavor="iso"), type=pa.binary())
+    attributes = features.attributes
+    columns = dict(zip(attributes.column_names, attributes.columns, strict=True))
+    table = pa.table({**columns, features.geometry: wkb})
+    if target.driver == PARQUET:
+        write_parquet(path, table, features.geometry, features.crs)
+        return []
+    notes = [f"{target.driver} has no place for attributes"] if target.is_drawing else []
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        try:
+            pyogrio.write_arrow(
+                table,
+                path,
+                layer=features.layer,
+                driver=target.driver,
+                geometry_name=features.geometry,
+                geometry_type=kind,
+                crs=features.crs,
+                layer_options=dict(target.options),
+            )
+        except (
+            pa.ArrowException,
+            pyogrio.errors.DataSourceError,
+            pyogrio.errors.DataLayerError,
+            pyogrio.errors.FieldError,
+            pyogrio.errors.FeatureError,
+            pyogrio.errors.CRSError,
+        ) as error:
+            msg = f"OUT {path.name!r} cannot be written as {target.driver}: {error}"
+            raise ParameterError(msg) from error
+    said = dict.fromkeys(str(w.message) for w in caught)
+    return notes + [text for text in said if not text.startswith("'crs' was not provided")]
+
+
+def uniform(geometries: Geometries, default: str) -> tuple[Geometries, str]:
+    """Geometries of one kind and its name: single ones become multi where both occur."""
+    there = geometries[~shapely.is_missing(geometries)]
+    kinds = {geometry.geom_type for geometry in there}
+    heights = np.unique(shapely.has_z(there))
+    if not kinds:
+        return geometries, default
+    if len({kind.removeprefix("Multi") for kind in kinds}) > 1 or heights.size > 1:
+        return geometries, "Unknown"
+    suffix = " Z" if heights[0] else ""
+    if len(kinds) == 1:
+        return geometries, kinds.pop() + suffix
+    multi = geometries.copy()
+    build = shapely.multilinestrings if "LineString" in kinds else shapely.multipolygons
+    for i, geometry in enumerate(geometries):
+        if geometry is not None and not geometry.geom_type.startswith("Multi"):
+            multi[i] = build([geometry])
+    return multi, max(kinds, key=len) + suffix
