@@ -9,7 +9,7 @@ from midrib.errors import InvalidAreaError
 from midrib.layout import Scale
 from midrib.types import Floats
 
-__all__ = ["degree_lengths"]
+__all__ = ["degree_lengths", "lengths_at"]
 
 SEMI_MAJOR = 6378137.0
 FLATTENING = 1.0 / 298.257223563
@@ -32,9 +32,15 @@ def degree_lengths(bounds: Floats) -> Scale:
             "(a planar CRS, perhaps?)"
         )
         raise InvalidAreaError(msg)
-    latitude = np.radians((low + high) / 2.0)
-    squeeze = 1.0 - SQUARED_ECCENTRICITY * np.sin(latitude) ** 2
+    across, along = lengths_at(np.array((low + high) / 2.0))
+    return float(across), float(along)
+
+
+def lengths_at(latitude: Floats) -> tuple[Floats, Floats]:
+    """Metres in a degree of longitude and in one of latitude, at latitudes in degrees."""
+    angle = np.radians(latitude)
+    squeeze = 1.0 - SQUARED_ECCENTRICITY * np.sin(angle) ** 2
     across = SEMI_MAJOR / np.sqrt(squeeze)  # radius of curvature, east-west
     along = SEMI_MAJOR * (1.0 - SQUARED_ECCENTRICITY) / squeeze**1.5  # north-south
     degree = np.pi / 180.0
-    return float(degree * across * np.cos(latitude)), float(degree * along)
+    return degree * across * np.cos(angle), degree * along
