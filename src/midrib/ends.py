@@ -37,7 +37,7 @@ def propose_ends(boundary: Boundary, scale: Scale, source: int = -1) -> tuple[En
 
 
 def lay_out_ends(
-    boundary: Boundary, start: End, stop: End, scale: Scale, main: Main = "shorter"
+    boundary: Boundary, start: End, stop: End, scale: Scale, main: Main = "longer"
 ) -> Layout:
     """Divide an area at two ends; see ``layout.lay_out``."""
     places = np.array([[start.place, start.other], [stop.place, stop.other]])

@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from midrib.errors import InvalidAreaError, InvariantError
-from midrib.kernels.division import AGAINST, SHORTER, WITH, divide_shell
+from midrib.kernels.division import AGAINST, LONGER, WITH, divide_shell
 from midrib.kernels.mesh import Mesh, mesh_rings
 from midrib.kernels.rings import Rings
 from midrib.types import Floats, Ints
@@ -21,8 +21,8 @@ __all__ = [
 ]
 
 Scale = tuple[float, float]  # length of one unit of x and of y
-Main = Literal["shorter", "with", "against"]
-RULES = {"shorter": SHORTER, "with": WITH, "against": AGAINST}
+Main = Literal["longer", "with", "against"]
+RULES = {"longer": LONGER, "with": WITH, "against": AGAINST}
 NO_HEIGHT = np.empty(0)
 
 
@@ -115,13 +115,12 @@ def with_touches(rings: Rings, touches: Ints) -> Rings:
 
 
 def lay_out(
-    boundary: Boundary, places: Ints, shares: Floats, scale: Scale, main: Main = "shorter"
+    boundary: Boundary, places: Ints, shares: Floats, scale: Scale, main: Main = "longer"
 ) -> Layout:
     """Divide an area at two ends, given as in ``kernels.division``.
 
     The main curve is the part of the shell that runs ``with`` it from start to end, or the one
-    ``against`` it, or the shorter one: the construction follows the roughness of the main curve,
-    and a rough bank is a long one.
+    ``against`` it, or the longer one, which sees more of the area.
 
     Raises
     ------

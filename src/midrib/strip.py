@@ -7,10 +7,10 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
+from midrib.ends import End, end_at, lay_out_ends, propose_ends
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.layout import Boundary, Layout, Scale, boundary_of
 from midrib.ragged import area_of_one, place_text, rings_of, rings_of_area
-from midrib.ends import End, end_at, lay_out_ends, propose_ends
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -123,8 +123,8 @@ def split(
     """Divide an area into a main and an auxiliary curve.
 
     Without further options the ends are what a person would call the ends: sharp tips, the middle
-    of flat or round ends. A flat end becomes a cap, which belongs to neither curve. The shorter
-    curve becomes the main one, as the construction follows the roughness of the main curve.
+    of flat or round ends. A flat end becomes a cap, which belongs to neither curve. The longer
+    curve becomes the main one: it sees more of the area.
 
     Parameters
     ----------

@@ -67,7 +67,8 @@ def collapse(
         line is constructed in a plane that is true to scale at the area's middle latitude. Taken
         from the CRS of a GeoSeries, otherwise False.
     **options
-        Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` unless you say otherwise.
+        Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
+        you say otherwise.
 
     Returns
     -------

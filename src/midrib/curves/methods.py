@@ -46,11 +46,12 @@ def minimal_radii_finder(
     *,
     ends: Any = "caps",
     end_clearance: Any = "proportional",
+    skip: Any = "bays",
     **stations: Any,
 ) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
     check_ends(ends, end_clearance)
-    rule = station_rule(**stations)
+    rule = station_rule(skip=skip, **stations)
 
     def find(
         rings: "Rings", height: "Floats | None", along: "LineString | None", scale: Scale

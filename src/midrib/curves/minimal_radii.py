@@ -86,6 +86,11 @@ class Curve:
         return jumps_of(self._radii)
 
     @property
+    def bays(self) -> "Floats":
+        """(k,) stations left out because they lie in bays of the main curve (``skip="bays"``)."""
+        return self._radii.bays
+
+    @property
     def loops_cut(self) -> int:
         """Number of loops that were cut to make the line simple."""
         return self._path.loops
@@ -130,8 +135,9 @@ def minimal_radii(
         The vertices of the main curve are stations too, as the paper recommends.
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
-    skip : int, slice, Polygon, function or list of them, optional
-        Stations to drop: by index; by ``slice`` of indices, or of arc lengths where its bounds are
+    skip : {"bays"}, int, slice, Polygon, function or list of them, optional
+        Stations to drop. ``"bays"``: those in bays and side arms of the main curve, told by a Q that
+        sees the main curve nearer than P by a factor of 1.5. Others: by index; by ``slice`` of indices, or of arc lengths where its bounds are
         floats; those whose P lies in a Polygon; those for which a function of stations (n,) and
         points (n, 2) returns True.
     ends : {"main", "caps", "radii"}, pair of points or None, default "main"

@@ -4,7 +4,7 @@ Source: the paper's section 4 and its Equation 1, d = L / count = L percent / 10
 """
 
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, TypeAlias, cast
+from typing import Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 import shapely
@@ -18,7 +18,12 @@ from midrib.types import Bools, Floats, Ints
 __all__ = ["Skip", "StationRule", "Stations", "station_rule"]
 
 SkipItem: TypeAlias = (
-    int | slice | shapely.Polygon | shapely.MultiPolygon | Callable[[Floats, Floats], Bools]
+    Literal["bays"]
+    | int
+    | slice
+    | shapely.Polygon
+    | shapely.MultiPolygon
+    | Callable[[Floats, Floats], Bools]
 )
 Skip: TypeAlias = SkipItem | Sequence[SkipItem]
 SAME_STATION = 2.0**-40  # of the main curve's length: stations nearer than this are one
@@ -54,7 +59,7 @@ class StationRule:
         Stations to drop, after all others are in place: an index, a slice of indices
         (``slice(0, 3)`` the first three, ``slice(-2, None)`` the last two), a slice of arc lengths
         (``slice(10.0, 25.0)``: two floats), a Polygon (points in it), a function of stations
-        and points that returns True for those to drop, or a list of such.
+        and points that returns True for those to drop, ``"bays"``, or a list of such.
     """
 
     def __init__(
@@ -87,7 +92,10 @@ class StationRule:
             msg = "stations have a value that is not finite, expected arc lengths"
             raise ParameterError(msg)
         self.spacing, self.count, self.percent = spacing, count, percent
-        self.vertices, self.stations, self.skip = vertices, own, skip
+        self.vertices, self.stations = vertices, own
+        items = list(skip) if isinstance(skip, list | tuple) else [] if skip is None else [skip]
+        self.skip_bays = "bays" in [item for item in items if isinstance(item, str)]
+        self.skip = [item for item in items if not (isinstance(item, str) and item == "bays")]
 
     def on(self, main: Chain, x: Floats, y: Floats, half_width: float) -> "Stations":
         """Stations on one main curve, ascending; x and y are those of mesh vertices.
@@ -106,7 +114,7 @@ class StationRule:
             own, self.vertices, tolerance, main.arc, main.vertex, x, y
         )
         placed = Stations(arc, points, main.side[segment], vertex)
-        if self.skip is not None:
+        if self.skip:
             keep = self.kept(arc, points)
             placed = Stations(*(column[keep] for column in placed))
         if placed.arc.size == 0:
@@ -148,12 +156,9 @@ class StationRule:
         return length / max(np.ceil(length / half_width), LEAST_COUNT)
 
     def kept(self, stations: Floats, points: Floats) -> Bools:
-        """Which stations ``skip`` leaves."""
+        """Which stations ``skip`` leaves, bays apart: those take the radii to tell."""
         keep = np.ones(stations.size, dtype=np.bool_)
-        if self.skip is None:
-            return keep
-        items = self.skip if isinstance(self.skip, list | tuple) else [self.skip]
-        for item in items:
+        for item in self.skip:
             keep &= ~dropped(cast("SkipItem", item), stations, points)
         return keep
 
@@ -194,5 +199,8 @@ def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
             msg = f"skip returned {mask.shape} values, expected {stations.shape}"
             raise ParameterError(msg)
         return mask
-    msg = f"skip is {item!r}, expected an index, a slice, a Polygon, a function or a list of them"
+    msg = (
+        f"skip is {item!r}, expected 'bays', an index, a slice, a Polygon, a function or a list "
+        "of them"
+    )
     raise ParameterError(msg)

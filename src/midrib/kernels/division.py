@@ -14,9 +14,9 @@ from midrib.kernels.mesh import Mesh, split_side
 from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
-__all__ = ["AGAINST", "SHORTER", "WITH", "divide_shell"]
+__all__ = ["AGAINST", "LONGER", "WITH", "divide_shell"]
 
-SHORTER, WITH, AGAINST = 0, 1, 2
+LONGER, WITH, AGAINST = 0, 1, 2
 HALF = 0.5
 
 
@@ -140,7 +140,7 @@ def divide_shell(
     places : (2, 2) the two ends as drawn above
     shares : (2,) how far along the segment that leaves its place an end lies that is no cap
     rule : which part is the main curve: the one that runs WITH the shell from start to stop, the
-        one AGAINST it, or the SHORTER
+        one AGAINST it, or the LONGER
     scale_x, scale_y : lengths of one unit of x and of y
 
     Returns
@@ -183,7 +183,7 @@ def divide_shell(
     vertex_a, side_a, arc_a = chain(
         mesh, order, side, ends[1, 1], ends[0, 0], True, scale_x, scale_y
     )
-    if rule == AGAINST or (rule == SHORTER and arc_a[-1] < arc_w[-1]):
+    if rule == AGAINST or (rule == LONGER and arc_a[-1] > arc_w[-1]):
         vertex_w, side_w, arc_w, vertex_a, side_a, arc_a = (
             vertex_a,
             side_a,

@@ -1,7 +1,6 @@
 """The two ends of an area: where a person would say that it begins and ends.
 
-1. *Far pair*: the two shell vertices with the longest way between them through the triangles,
-   measured by the middles of the sides crossed.
+1. *Far pair*: the two shell vertices with the longest way between them through the triangles.
 2. *Shape of an end*, around each of them:
 
      CAP  p------q   a straight run that both banks meet at 45 to 135 degrees: the end is its
@@ -26,8 +25,16 @@ __all__ = ["CAP", "POINT", "TIP", "far_pair", "propose_ends", "shape_of_end"]
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
 LEAST_CORNER = np.cos(np.pi / 4)  # banks meet a cap at 45 to 135 degrees
+LEAST_CAP = 0.25  # of the mean width
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
+
+
+@njit()
+def middle_of(mesh: Mesh, e: int) -> tuple[float, float]:
+    """Middle of a side."""
+    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    return (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
 
 
 @njit()
@@ -40,42 +47,34 @@ def sweep(
     is_tree: bool,
     entered: Ints,
     cost: Floats,
+    way: Floats,
     frontier: Ints,
-) -> tuple[int, float]:
-    """The shell vertex with the longest way from ``source``, and the way's length.
+) -> int:
+    """The shell vertex with the longest way from ``source``.
 
+    A way goes from middle of side to middle of side, or along vertices where that is shorter: the
+    middles alone would go into a long side's triangle and back to reach a vertex next to it.
     Without holes the triangles form a tree and any order of visits will do; with holes the
     nearest side comes first (Dijkstra).
     """
     entered[:] = 0
+    way[:] = np.inf
+    way[source] = 0.0
     size = 0
-    farthest, longest = source, -1.0
     sx, sy = mesh.x[source], mesh.y[source]
     door = mesh.door[source]
     while door >= 0:
         e = door
         while e >= 0:
             entered[e // 3] = 1
-            for v in (mesh.tri[next_side(e)], mesh.tri[previous_side(e)]):
-                way = np.hypot((mesh.x[v] - sx) * scale_x, (mesh.y[v] - sy) * scale_y)
-                if v < n_shell and way > longest:
-                    farthest, longest = v, way
-            e = mesh.twin[previous_side(e)]
-        door = mesh.other_door[door]
-    door = mesh.door[source]
-    while door >= 0:
-        e = door
-        while e >= 0:
             across = next_side(e)
+            for v in (mesh.tri[across], mesh.tri[previous_side(e)]):
+                way[v] = np.hypot((mesh.x[v] - sx) * scale_x, (mesh.y[v] - sy) * scale_y)
             if mesh.twin[across] >= 0:
-                a, b = mesh.tri[across], mesh.tri[next_side(across)]
-                mx, my = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
+                mx, my = middle_of(mesh, across)
                 cost[across] = np.hypot((mx - sx) * scale_x, (my - sy) * scale_y)
-                if is_tree:
-                    frontier[size] = across
-                    size += 1
-                else:
-                    size = push(frontier, cost, size, across)
+                frontier[size] = across
+                size = size + 1 if is_tree else push(frontier, cost, size, across)
             e = mesh.twin[previous_side(e)]
         door = mesh.other_door[door]
     while size > 0:
@@ -85,23 +84,29 @@ def sweep(
         if entered[f // 3] != 0:
             continue
         entered[f // 3] = 1
-        a, b, w = mesh.tri[e], mesh.tri[f], mesh.tri[previous_side(f)]
-        mx, my = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
-        way = cost[e] + np.hypot((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
-        if w < n_shell and way > longest:
-            farthest, longest = w, way
+        w = mesh.tri[previous_side(f)]
+        mx, my = middle_of(mesh, e)
+        to_w = cost[e] + np.hypot((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
+        for v in (mesh.tri[e], mesh.tri[f]):
+            dx, dy = (mesh.x[w] - mesh.x[v]) * scale_x, (mesh.y[w] - mesh.y[v]) * scale_y
+            to_w = min(to_w, way[v] + np.hypot(dx, dy))
+        way[w] = min(way[w], to_w)
         for side in (next_side(f), previous_side(f)):
             if mesh.twin[side] < 0 or entered[mesh.twin[side] // 3] != 0:
                 continue
-            a, b = mesh.tri[side], mesh.tri[next_side(side)]
-            nx, ny = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
-            cost[side] = cost[e] + np.hypot((nx - mx) * scale_x, (ny - my) * scale_y)
-            if is_tree:
-                frontier[size] = side
-                size += 1
-            else:
-                size = push(frontier, cost, size, side)
-    return farthest, longest
+            nx, ny = middle_of(mesh, side)
+            to_side = cost[e] + np.hypot((nx - mx) * scale_x, (ny - my) * scale_y)
+            for v in (mesh.tri[side], mesh.tri[next_side(side)]):
+                dx, dy = (nx - mesh.x[v]) * scale_x, (ny - mesh.y[v]) * scale_y
+                to_side = min(to_side, way[v] + np.hypot(dx, dy))
+            cost[side] = to_side
+            frontier[size] = side
+            size = size + 1 if is_tree else push(frontier, cost, size, side)
+    farthest = source
+    for v in range(n_shell):
+        if way[v] > way[farthest] and way[v] < np.inf:
+            farthest = v
+    return farthest
 
 
 @njit()
@@ -116,11 +121,12 @@ def far_pair(
     """
     m = mesh.tri.size
     entered, cost, frontier = np.empty(m // 3, np.intp), np.empty(m), np.empty(m, np.intp)
+    way = np.empty(mesh.x.size)
     pair = np.empty(2, np.intp)
     pair[0] = source
     if source < 0:
-        pair[0], _ = sweep(mesh, n_shell, 0, scale_x, scale_y, is_tree, entered, cost, frontier)
-    pair[1], _ = sweep(mesh, n_shell, pair[0], scale_x, scale_y, is_tree, entered, cost, frontier)
+        pair[0] = sweep(mesh, n_shell, 0, scale_x, scale_y, is_tree, entered, cost, way, frontier)
+    pair[1] = sweep(mesh, n_shell, pair[0], scale_x, scale_y, is_tree, entered, cost, way, frontier)
     return pair
 
 
@@ -161,16 +167,16 @@ def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
 def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
-    The banks' directions are taken over the length of the run itself, so that roughness finer
-    than the run does not matter.
+    The banks' directions are taken over half the length of the run, so that roughness finer than
+    that does not matter.
     """
     perimeter = arc[-1]
     cx, cy = x[q] - x[p], y[q] - y[p]
     length = np.hypot(cx, cy)
     if length <= 0.0 or 3.0 * length > perimeter:
         return False
-    ax, ay, _, _ = point_at(x, y, arc, arc[p] - length)
-    bx, by, _, _ = point_at(x, y, arc, arc[q] + length)
+    ax, ay, _, _ = point_at(x, y, arc, arc[p] - length / 2.0)
+    bx, by, _, _ = point_at(x, y, arc, arc[q] + length / 2.0)
     ux, uy, vx, vy = x[p] - ax, y[p] - ay, x[q] - bx, y[q] - by
     u, v = np.hypot(ux, uy), np.hypot(vx, vy)
     if u <= 0.0 or v <= 0.0:
@@ -180,6 +186,35 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     outward_p = ux * cy - uy * cx > 0.0  # the shell turns left, so the bank comes from the right
     outward_q = vx * cy - vy * cx > 0.0
     return corner_p and corner_q and outward_p and outward_q
+
+
+@njit()
+def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tuple[int, int]:
+    """Corners of the cap at a vertex, the shorter one of two, or else of the nearest cap within
+    a width of it along the shell; -1 if there is none. Teeth of the banks are too short for one."""
+    least = LEAST_CAP * width
+    # The vertex may lie inside a straight run; a part of a run is no cap.
+    backward, forward = vertex, vertex
+    behind = straight_run(x, y, vertex, -1)
+    through = straight_run(x, y, behind, 1)
+    if through != vertex:
+        backward, forward = behind, through
+        length = np.hypot(x[forward] - x[backward], y[forward] - y[backward])
+        if least <= length and is_cap(x, y, arc, backward, forward):
+            return backward, forward
+    nearest, shortest, cap_p, cap_q = width, np.inf, -1, -1
+    for step in (1, -1):
+        near, way = (forward if step == 1 else backward), 0.0
+        while way <= nearest:
+            far = straight_run(x, y, near, step)
+            length = np.hypot(x[far] - x[near], y[far] - y[near])
+            p, q = (near, far) if step == 1 else (far, near)
+            is_better = way < nearest or length < shortest
+            if least <= length and is_better and is_cap(x, y, arc, p, q):
+                nearest, shortest, cap_p, cap_q = way, length, p, q
+                break
+            near, way = far, way + length
+    return cap_p, cap_q
 
 
 @njit()
@@ -223,14 +258,8 @@ def shape_of_end(
         CAP: the corners i and j, in the shell's direction; TIP: vertex i; POINT: ``share`` of the
         way along segment i.
     """
-    # 1. A straight run at the vertex, forward or backward; the shorter one is the lid.
-    forward, backward = straight_run(x, y, vertex, 1), straight_run(x, y, vertex, -1)
-    inside_run = straight_run(x, y, backward, 1)
-    best, cap_p, cap_q = np.inf, -1, -1
-    for p, q in ((vertex, forward), (backward, vertex), (backward, inside_run)):
-        length = np.hypot(x[q] - x[p], y[q] - y[p])
-        if length < best and is_cap(x, y, arc, p, q):
-            best, cap_p, cap_q = length, p, q
+    # 1. A lid at the vertex or next to it.
+    cap_p, cap_q = find_cap(x, y, arc, vertex, width)
     if cap_p >= 0:
         return CAP, cap_p, cap_q, 0.0
     # 2. Arms along both banks, long enough that roughness does not matter.

@@ -18,6 +18,8 @@ auxiliary curve), LIMIT (the end clearance cuts the segment there).
 Distances are in the metric scale_x dx, scale_y dy; sides of lines do not depend on it.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from midrib.kernels.boxtree import (
@@ -34,14 +36,71 @@ from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
-from midrib.types import Floats, Ints
+from midrib.types import Bools, Floats, Ints
 
-__all__ = ["nearest_visible"]
+__all__ = ["nearest_visible", "sees_within"]
 
 # Two radii are a tie if they differ by less than rounding can explain: this share of the radius,
 # or this share of the largest coordinate, whichever is more.
 TIE_OF_RADIUS = 2.0**-40
 TIE_OF_COORDINATE = 2.0**-50
+
+
+class Goal(NamedTuple):
+    """A curve to look for: its segments on half-edges, its vertices, and a tree of boxes."""
+
+    segment: Ints  # for each half-edge the curve's segment on it, or -1
+    vertex: Ints
+    arc: Floats
+    x: Floats  # in lengths, as y and boxes
+    y: Floats
+    boxes: Floats
+    scale_x: float
+    scale_y: float
+    tie: float  # radii that differ by less than this are equal
+
+
+class View(NamedTuple):
+    """Tables to work in, kept from one point to the next."""
+
+    near: Floats  # points found: x, y, arc length, squared distance
+    near_kind: Ints
+    stack: Ints  # windows that wait: side, right, left
+    windows: Ints
+    nodes: Ints
+    segments: Ints
+    shares: Floats
+    kinds: Ints
+    squares: Floats
+
+
+@njit()
+def goal_of(
+    mesh: Mesh, segment: Ints, vertex: Ints, arc: Floats, scale_x: float, scale_y: float
+) -> Goal:
+    """Prepare to look for a curve."""
+    x, y = mesh.x[vertex] * scale_x, mesh.y[vertex] * scale_y
+    largest = 0.0
+    for v in range(mesh.x.size):
+        largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
+    tie = TIE_OF_COORDINATE * largest
+    return Goal(segment, vertex, arc, x, y, box_tree(x, y), scale_x, scale_y, tie)
+
+
+@njit()
+def new_view() -> View:
+    """Empty tables."""
+    return View(
+        np.empty((16, 4)),
+        np.empty(16, np.intp),
+        np.empty((64, 3), np.intp),
+        np.empty((64, 3), np.intp),
+        np.empty(DEPTH, np.intp),
+        np.empty(16, np.intp),
+        np.empty(16),
+        np.empty(16, np.intp),
+        np.empty(16),
+    )
 
 
 @njit()
@@ -219,54 +278,50 @@ def next_windows(
 
 
 @njit()
-def offer_of_auxiliary(
+def offer_of_segment(
     mesh: Mesh,
+    goal: Goal,
     side: int,
     right: int,
     left: int,
     x: float,
     y: float,
     j: int,
-    aux_vertex: Ints,
-    aux_arc: Floats,
     low: float,
     high: float,
-    scale_x: float,
-    scale_y: float,
 ) -> tuple[float, float, int]:
-    """What auxiliary segment j offers: share of the way along its side, arc length, kind."""
-    length = aux_arc[j + 1] - aux_arc[j]
-    is_forward = aux_vertex[j] == mesh.tri[side]
+    """What segment j of the curve offers: share of the way along its side, arc length, kind."""
+    length = goal.arc[j + 1] - goal.arc[j]
+    is_forward = goal.vertex[j] == mesh.tri[side]
     share_low, share_high = 0.0, 1.0
-    if low > aux_arc[j] or high < aux_arc[j + 1]:
-        share_low, share_high = (low - aux_arc[j]) / length, (high - aux_arc[j]) / length
+    if low > goal.arc[j] or high < goal.arc[j + 1]:
+        share_low, share_high = (low - goal.arc[j]) / length, (high - goal.arc[j]) / length
         if not is_forward:
             share_low, share_high = 1.0 - share_high, 1.0 - share_low
     share, kind = nearest_on_side(
-        mesh, side, right, left, x, y, scale_x, scale_y, share_low, share_high
+        mesh, side, right, left, x, y, goal.scale_x, goal.scale_y, share_low, share_high
     )
     along = share if is_forward else 1.0 - share
-    arc = aux_arc[j + 1] if along == 1.0 else aux_arc[j] + along * length
+    arc = goal.arc[j + 1] if along == 1.0 else goal.arc[j] + along * length
     return share, arc, kind
 
 
 @njit()
 def offer_of_end(
     mesh: Mesh,
+    goal: Goal,
     side: int,
     right: int,
     left: int,
     x: float,
     y: float,
-    aux_vertex: Ints,
-    aux_arc: Floats,
     low: float,
     high: float,
 ) -> tuple[float, float, int]:
-    """An end of the auxiliary curve can be seen where its own segment is not: at the end of a
-    boundary side next to it."""
+    """An end of the curve can be seen where its own segment is not: at the end of a boundary side
+    next to it."""
     u, v = mesh.tri[side], mesh.tri[next_side(side)]
-    for end, arc in ((aux_vertex[0], 0.0), (aux_vertex[-1], aux_arc[-1])):
+    for end, arc in ((goal.vertex[0], 0.0), (goal.vertex[-1], goal.arc[-1])):
         if arc < low or arc > high:
             continue
         if end == u and (
@@ -283,83 +338,72 @@ def offer_of_end(
 @njit()
 def look(
     mesh: Mesh,
-    target: Ints,
-    aux_vertex: Ints,
-    aux_arc: Floats,
+    goal: Goal,
     x: float,
     y: float,
     side: int,
     vertex: int,
     low: float,
     high: float,
-    reach: float,
-    scale_x: float,
-    scale_y: float,
-    tie: float,
-    near: Floats,
-    kinds: Ints,
-    stack: Ints,
-    windows: Ints,
-) -> tuple[Floats, Ints, Ints, Ints, int]:
-    """Collect the points of the auxiliary curve that P sees within ``reach`` and that are, when
-    found, not farther than the nearest so far. Return the tables, grown if need be, and a count."""
-    bound = reach * reach
+    bound: float,
+    view: View,
+) -> tuple[View, int]:
+    """Collect the points of the curve that are seen, and not farther than ``bound`` nor, when
+    found, than the nearest so far. Return the view, with larger tables if need be, and a count."""
+    near, near_kind, stack = view.near, view.near_kind, view.stack
+    bound = bound * bound
     count, depth = 0, 0
-    windows, n_windows = first_windows(mesh, side, vertex, windows)
+    windows, n_windows = first_windows(mesh, side, vertex, view.windows)
     while True:
         # 1. Boundary sides make their offer; open sides that are near enough wait.
         for w in range(n_windows):
             e, right, left = windows[w, 0], windows[w, 1], windows[w, 2]
             u, v = mesh.tri[e], mesh.tri[next_side(e)]
             ux, uy, vx, vy = mesh.x[u], mesh.y[u], mesh.x[v], mesh.y[v]
-            if squared_distance_to_side(x, y, ux, uy, vx, vy, scale_x, scale_y) > bound:
+            if squared_distance_to_side(x, y, ux, uy, vx, vy, goal.scale_x, goal.scale_y) > bound:
                 continue
             if mesh.twin[e] >= 0:
                 stack = with_room(stack, depth)
                 depth = add_window(stack, depth, e, right, left)
                 continue
-            if target[e] >= 0:
-                share, arc, kind = offer_of_auxiliary(
-                    mesh,
-                    e,
-                    right,
-                    left,
-                    x,
-                    y,
-                    target[e],
-                    aux_vertex,
-                    aux_arc,
-                    low,
-                    high,
-                    scale_x,
-                    scale_y,
-                )
+            j = goal.segment[e]
+            if j >= 0:
+                share, arc, kind = offer_of_segment(mesh, goal, e, right, left, x, y, j, low, high)
             else:
-                share, arc, kind = offer_of_end(
-                    mesh, e, right, left, x, y, aux_vertex, aux_arc, low, high
-                )
+                share, arc, kind = offer_of_end(mesh, goal, e, right, left, x, y, low, high)
             if np.isnan(share):
                 continue
             qx, qy = ux + share * (vx - ux), uy + share * (vy - uy)
             if share == 1.0:
                 qx, qy = vx, vy
-            d = ((qx - x) * scale_x) ** 2 + ((qy - y) * scale_y) ** 2
+            d = ((qx - x) * goal.scale_x) ** 2 + ((qy - y) * goal.scale_y) ** 2
             if d > bound:
                 continue
             radius = np.sqrt(d)
-            bound = min(bound, (radius + max(tie, TIE_OF_RADIUS * radius)) ** 2)
-            if count == kinds.size:
-                near, kinds = grown(near, 2 * count), grown_ints(kinds, 2 * count)
+            bound = min(bound, (radius + max(goal.tie, TIE_OF_RADIUS * radius)) ** 2)
+            if count == near_kind.size:
+                near, near_kind = grown(near, 2 * count), grown_ints(near_kind, 2 * count)
             near[count, 0], near[count, 1], near[count, 2], near[count, 3] = qx, qy, arc, d
-            kinds[count] = kind
+            near_kind[count] = kind
             count += 1
         # 2. The open side that came last is looked through.
         if depth == 0:
-            return near, kinds, stack, windows, count
+            break
         depth -= 1
         n_windows = next_windows(
             mesh, stack[depth, 0], stack[depth, 1], stack[depth, 2], x, y, windows
         )
+    return View(
+        near,
+        near_kind,
+        stack,
+        windows,
+        view.nodes,
+        view.segments,
+        view.shares,
+        view.kinds,
+        view.squares,
+    ), count
 
 
 @njit()
@@ -383,6 +427,74 @@ def sees(
         return False
     _, obstacle = walk(mesh, t, x, y, qx, qy)
     return obstacle == -1 or (obstacle >= 0 and target[obstacle] == j)
+
+
+@njit()
+def nearest_seen(
+    mesh: Mesh,
+    goal: Goal,
+    x: float,
+    y: float,
+    side: int,
+    vertex: int,
+    low: float,
+    high: float,
+    reach: float,
+    bound: float,
+    view: View,
+) -> tuple[View, int, float]:
+    """Nearest points of a curve that one point sees: in ``view.near``, their number, and how far
+    the nearest point is at all.
+
+    No point farther than ``bound`` counts; ``reach`` is known to hold the nearest one (inf: not
+    known). The view comes back with larger tables where it needed them.
+    """
+    # 1. The nearest point at all.
+    slack = goal.tie if reach == np.inf else max(goal.tie, TIE_OF_RADIUS * reach)
+    n_nearest = nearest_on_chain(
+        x * goal.scale_x,
+        y * goal.scale_y,
+        goal.x,
+        goal.y,
+        goal.arc,
+        goal.boxes,
+        low,
+        high,
+        min(reach, bound),
+        slack,
+        view.nodes,
+        view.segments,
+        view.shares,
+        view.kinds,
+        view.squares,
+    )
+    best = np.inf
+    for k in range(n_nearest):
+        best = min(best, view.squares[k])
+    nearest = np.sqrt(best)
+    limit = (nearest + max(goal.tie, TIE_OF_RADIUS * nearest)) ** 2
+    # 2. If it is seen, and so is every point equally near, that is the answer.
+    count, doubts = 0, n_nearest < 0
+    for k in range(n_nearest):
+        if view.squares[k] > limit:
+            continue
+        j, share = view.segments[k], view.shares[k]
+        a, b = goal.vertex[j], goal.vertex[j + 1]
+        qx = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
+        qy = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
+        arc = goal.arc[j] + share * (goal.arc[j + 1] - goal.arc[j])
+        if share == 1.0:
+            qx, qy, arc = mesh.x[b], mesh.y[b], goal.arc[j + 1]
+        if not sees(mesh, goal.segment, x, y, side, vertex, j, qx, qy):
+            doubts = True
+            break
+        view.near[count, 0], view.near[count, 1], view.near[count, 2] = qx, qy, arc
+        view.near[count, 3], view.near_kind[count] = view.squares[k], view.kinds[k]
+        count += 1
+    # 3. If it cannot be told, the point looks around.
+    if doubts:
+        view, count = look(mesh, goal, x, y, side, vertex, low, high, bound, view)
+    return view, count, nearest
 
 
 @njit(entry=True)
@@ -428,95 +540,67 @@ def nearest_visible(
     n = px.size
     station, kind = np.empty(n + 8, np.intp), np.empty(n + 8, np.intp)
     found = np.empty((n + 8, 4))
-    near, near_kind = np.empty((16, 4)), np.empty(16, np.intp)
-    stack, windows = np.empty((64, 3), np.intp), np.empty((64, 3), np.intp)
-    ax, ay = mesh.x[aux_vertex] * scale_x, mesh.y[aux_vertex] * scale_y
-    boxes = box_tree(ax, ay)
-    nodes, segments, shares = np.empty(DEPTH, np.intp), np.empty(16, np.intp), np.empty(16)
-    kinds, squares = np.empty(16, np.intp), np.empty(16)
-    largest = 0.0
-    for v in range(mesh.x.size):
-        largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
-    tie = TIE_OF_COORDINATE * largest
+    goal = goal_of(mesh, target, aux_vertex, aux_arc, scale_x, scale_y)
+    view = new_view()
     total, reach = 0, np.inf
     for i in range(n):
-        x, y = px[i], py[i]
-        # 1. The nearest point at all. It is at most a step farther than the one before.
+        # The nearest point is at most a step farther than the one before, if as many count.
         if i > 0 and reach < np.inf:
-            reach += np.hypot((x - px[i - 1]) * scale_x, (y - py[i - 1]) * scale_y)
-            reach = reach * (1.0 + TIE_OF_RADIUS) + tie
+            reach += np.hypot((px[i] - px[i - 1]) * scale_x, (py[i] - py[i - 1]) * scale_y)
+            reach = reach * (1.0 + TIE_OF_RADIUS) + goal.tie
             if low[i] > low[i - 1] or high[i] < high[i - 1]:
                 reach = np.inf
-        slack = max(tie, TIE_OF_RADIUS * reach) if reach < np.inf else tie
-        n_nearest = nearest_on_chain(
-            x * scale_x,
-            y * scale_y,
-            ax,
-            ay,
-            aux_arc,
-            boxes,
-            low[i],
-            high[i],
-            reach,
-            slack,
-            nodes,
-            segments,
-            shares,
-            kinds,
-            squares,
+        view, count, reach = nearest_seen(
+            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], reach, np.inf, view
         )
-        best = np.inf
-        for k in range(n_nearest):
-            best = min(best, squares[k])
-        reach = np.sqrt(best)
-        limit = (reach + max(tie, TIE_OF_RADIUS * reach)) ** 2
-        # 2. If P sees it, it is the answer.
-        count = 0
-        for k in range(n_nearest):
-            if squares[k] > limit:
-                continue
-            j, share = segments[k], shares[k]
-            a, b = aux_vertex[j], aux_vertex[j + 1]
-            qx = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
-            qy = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-            arc = aux_arc[j] + share * (aux_arc[j + 1] - aux_arc[j])
-            if share == 1.0:
-                qx, qy, arc = mesh.x[b], mesh.y[b], aux_arc[j + 1]
-            if sees(mesh, target, x, y, p_side[i], p_vertex[i], j, qx, qy):
-                near[count, 0], near[count, 1], near[count, 2] = qx, qy, arc
-                near[count, 3], near_kind[count] = squares[k], kinds[k]
-                count += 1
-        # 3. If not, or if it cannot be told, P looks around.
-        if count == 0:
-            near, near_kind, stack, windows, count = look(
-                mesh,
-                target,
-                aux_vertex,
-                aux_arc,
-                x,
-                y,
-                p_side[i],
-                p_vertex[i],
-                low[i],
-                high[i],
-                np.inf,
-                scale_x,
-                scale_y,
-                tie,
-                near,
-                near_kind,
-                stack,
-                windows,
-            )
         if count == 0:
             continue
-        kept = keep_ties(near, near_kind, count, tie)
+        kept = keep_ties(view.near, view.near_kind, count, goal.tie)
         if total + kept > station.size:
             room = 2 * (total + kept)
             found = grown(found, room)
             station, kind = grown_ints(station, room), grown_ints(kind, room)
         station[total : total + kept] = i
-        found[total : total + kept] = near[:kept]
-        kind[total : total + kept] = near_kind[:kept]
+        found[total : total + kept] = view.near[:kept]
+        kind[total : total + kept] = view.near_kind[:kept]
         total += kept
     return station[:total], found[:total], kind[:total]
+
+
+@njit(entry=True)
+def sees_within(
+    mesh: Mesh,
+    target: Ints,
+    vertex: Ints,
+    arc: Floats,
+    px: Floats,
+    py: Floats,
+    p_side: Ints,
+    p_vertex: Ints,
+    bound: Floats,
+    scale_x: float,
+    scale_y: float,
+) -> Bools:
+    """Whether each point of the boundary sees a curve nearer than its bound.
+
+    Parameters are those of ``nearest_visible``; ``bound`` is (n,) distances.
+    """
+    goal = goal_of(mesh, target, vertex, arc, scale_x, scale_y)
+    view = new_view()
+    seen = np.zeros(px.size, np.bool_)
+    for i in range(px.size):
+        view, count, _ = nearest_seen(
+            mesh,
+            goal,
+            px[i],
+            py[i],
+            p_side[i],
+            p_vertex[i],
+            -np.inf,
+            np.inf,
+            np.inf,
+            bound[i],
+            view,
+        )
+        seen[i] = count > 0
+    return seen
