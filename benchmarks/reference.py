@@ -1,0 +1,82 @@
+r"""The line that others are held against: the trunk of a densely sampled medial axis.
+
+    o-----------------------------o
+    | \                         / |
+    e0--+----------------------+--e1     the trunk leads from one expected end to the other
+    | /                         \ |     along the medial axis; all its branches are left out
+    o-----------------------------o
+
+The Voronoi diagram of points on the boundary keeps, inside the area, near the medial axis. From
+an expected end the trunk starts straight to the axis point that has this end nearest.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import Voronoi
+from shapely import LineString
+from shapely.geometry.base import BaseGeometry
+
+from families import Case, Floats
+
+__all__ = ["Axis", "axis_of"]
+
+SAMPLES_PER_WIDTH = 60
+NEAR = 1e-3  # what a step along the trunk costs beside a line that it lies on, in widths
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """The medial axis of an area as a graph, with the two nodes at the expected ends."""
+
+    case: Case
+    nodes: Floats  # (k, 2)
+    links: NDArray[np.intp]  # (m, 2)
+    tips: tuple[int, int]
+
+    def trunk(self, line: BaseGeometry | None = None) -> LineString:
+        """Way from end to end: past islands on the side where ``line`` runs, or the shorter."""
+        a, b = self.nodes[self.links[:, 0]], self.nodes[self.links[:, 1]]
+        cost = np.hypot(*(a - b).T)
+        if line is not None and self.case.area.interiors:
+            off = shapely.distance(shapely.points((a + b) / 2), line)
+            cost *= NEAR + off / self.case.width
+        size = len(self.nodes)
+        graph = csr_array((cost, (self.links[:, 0], self.links[:, 1])), shape=(size, size))
+        start, stop = self.tips
+        distance, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
+        if not np.isfinite(distance[stop]):
+            msg = f"the sampled medial axis of {self.case.name} is in pieces"
+            raise RuntimeError(msg)
+        path = [stop]
+        while path[-1] != start:
+            path.append(int(before[path[-1]]))
+        first, last = self.case.ends
+        return LineString(np.vstack([first, self.nodes[path[::-1]], last]))
+
+
+def axis_of(case: Case) -> Axis:
+    """Sample the boundary of an area and keep what of the Voronoi diagram is inside."""
+    dense = shapely.segmentize(case.area, case.width / SAMPLES_PER_WIDTH)
+    rings = [np.asarray(ring.coords)[:-1] for ring in (dense.exterior, *dense.interiors)]
+    points = np.concatenate(rings)
+    origin = points.mean(axis=0)  # far from it, the diagram would lose digits
+    diagram = Voronoi(points - origin)
+    nodes = diagram.vertices + origin
+    inside = shapely.contains_xy(case.area, nodes)
+    links = np.asarray(diagram.ridge_vertices, dtype=np.intp)
+    links = links[(links >= 0).all(axis=1) & inside[links].all(axis=1)]
+    first, last = (tip_of(diagram, inside, end - origin) for end in case.ends)
+    return Axis(case, nodes, links, (first, last))
+
+
+def tip_of(diagram: Voronoi, inside: NDArray[np.bool_], end: Floats) -> int:
+    """Node nearest to an end, of the cell of the boundary point nearest to it."""
+    sample = np.argmin(((diagram.points - end) ** 2).sum(axis=1))
+    cell = np.array(diagram.regions[diagram.point_region[sample]])
+    cell = cell[(cell >= 0) & inside[cell]]
+    return int(cell[np.argmin(((diagram.vertices[cell] - end) ** 2).sum(axis=1))])
