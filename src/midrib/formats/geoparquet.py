@@ -4,7 +4,6 @@ Source: https://geoparquet.org/releases/v1.1.0/
 """
 
 import json
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -58,7 +57,7 @@ class GeoColumn(NamedTuple):
 
     name: str
     crs: str | None  # PROJJSON
-    kinds: Sequence[str]
+    kind: str  # of geometry, "Unknown" if it holds several
     covering: str | None  # column with the boxes of the geometries
 
 
@@ -82,11 +81,12 @@ def geo_column(metadata: dict[bytes, bytes] | None, path: Path) -> GeoColumn:
         )
         raise ParameterError(msg)
     crs = column.get("crs", CRS84)
+    kinds = {kind.removesuffix(" Z") for kind in column.get("geometry_types", [])}
     covering = column.get("covering", {}).get("bbox", {}).get("xmin", [None])[0]
     return GeoColumn(
         name,
         crs if crs is None or isinstance(crs, str) else json.dumps(crs),
-        column.get("geometry_types") or column.get("geometry_type") or [],
+        kinds.pop() if len(kinds) == 1 else "Unknown",
         covering,
     )
 

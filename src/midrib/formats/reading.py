@@ -1,9 +1,9 @@
 """Layers of vector files, read in batches of Arrow columns and shapely geometries."""
 
 import json
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple, TypeAlias
 
@@ -17,21 +17,28 @@ import shapely
 from midrib.errors import ParameterError
 from midrib.formats.geoparquet import geo_column
 
-__all__ = ["Batch", "Geometries", "Source", "layer_names", "open_layer"]
+__all__ = ["Batch", "Geometries", "Source", "choose_layer", "layer_names", "open_layer"]
 
 Geometries: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.object_]]"
 PARQUET_ENDINGS = (".parquet", ".geoparquet")
 BATCH = 500  # features: some tenths of a second of work
+AREA_KINDS = ("Polygon", "Surface", "Unknown", "GeometryCollection")
+UNREADABLE = (
+    pa.ArrowException,
+    OSError,
+    pyogrio.errors.DataSourceError,
+    pyogrio.errors.DataLayerError,
+)
 EXTENSION = b"ARROW:extension:metadata"
 
 
 class Batch(NamedTuple):
     """Some features in the order of the file."""
 
+    first: int  # number of features before it
     attributes: pa.Table
     geometries: Geometries  # None where missing
     unreadable: dict[int, str]  # row to reason; their geometry is None
-    wkb: pa.Array  # as they were read
 
 
 @dataclass(frozen=True)
@@ -63,11 +70,13 @@ class Source:
     stream: Iterator[pa.RecordBatch]
 
     def batches(self) -> Iterator[Batch]:
-        """Features in the order of the file; can be walked through once."""
+        """Features in the order of the file, after a batch of none; can be walked through once."""
+        yield Batch(0, self.attributes.empty_table(), np.empty(0, dtype=object), {})
+        first = 0
         for batch in self.stream:
-            wkb = batch.column(self.geometry)
             attributes = pa.Table.from_batches([batch]).select(self.attributes.names)
-            yield Batch(attributes, *decoded(wkb), wkb)
+            yield Batch(first, attributes, *decoded(batch.column(self.geometry)))
+            first += batch.num_rows
 
 
 def layer_names(path: Path) -> dict[str, str | None]:
@@ -81,13 +90,51 @@ def layer_names(path: Path) -> dict[str, str | None]:
     if not path.exists():
         msg = f"IN {str(path)!r} does not exist"
         raise ParameterError(msg)
-    if path.suffix.lower() in PARQUET_ENDINGS:
-        return {path.stem: "Unknown"}
     try:
+        if path.suffix.lower() in PARQUET_ENDINGS:
+            return {path.stem: geo_column(pq.read_schema(path).metadata, path).kind}
         return {str(name): kind for name, kind in pyogrio.list_layers(path)}
-    except pyogrio.errors.DataSourceError:
+    except UNREADABLE:
         msg = f"IN {str(path)!r} cannot be read as a vector file"
         raise ParameterError(msg) from None
+
+
+def choose_layer(path: Path, layer: str | None) -> str:
+    """Name of the layer with areas to read: the one that is asked for, else the only one.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such layer, none with areas, or a choice of several.
+    """
+    layers = layer_names(path)
+    if layer is not None:
+        if layer not in layers:
+            msg = f"--layer is {layer!r}, expected a layer of IN {str(path)!r}: {listed(layers)}"
+            raise ParameterError(msg)
+        if not may_hold_areas(layers[layer]):
+            msg = f"--layer {layer!r} holds {layers[layer] or 'no geometries'}, expected areas"
+            raise ParameterError(msg)
+        return layer
+    with_areas = [name for name, kind in layers.items() if may_hold_areas(kind)]
+    if len(with_areas) == 1:
+        return with_areas[0]
+    if with_areas:
+        msg = f"IN {str(path)!r} has several layers, choose one with --layer: {listed(with_areas)}"
+        raise ParameterError(msg)
+    held = ", ".join(sorted({kind or "no geometries" for kind in layers.values()})) or "nothing"
+    msg = f"IN {str(path)!r} holds {held}, expected areas (Polygon or MultiPolygon)"
+    raise ParameterError(msg)
+
+
+def listed(names: Iterable[str]) -> str:
+    """Names for a message."""
+    return ", ".join(repr(name) for name in names)
+
+
+def may_hold_areas(kind: str | None) -> bool:
+    """Whether a layer of a declared kind of geometry can have areas in it."""
+    return kind is not None and any(word in kind for word in AREA_KINDS)
 
 
 @contextmanager
@@ -100,12 +147,22 @@ def open_layer(path: Path, layer: str, *, batch_size: int = BATCH) -> Iterator[S
         If the file cannot be read.
     """
     opened = open_parquet if path.suffix.lower() in PARQUET_ENDINGS else open_vector
+    with ExitStack() as stack:
+        try:
+            source = stack.enter_context(opened(path, layer, batch_size))
+        except UNREADABLE as error:
+            msg = f"IN {str(path)!r} cannot be read: {error}"
+            raise ParameterError(msg) from error
+        yield replace(source, stream=checked_stream(source.stream, path))
+
+
+def checked_stream(stream: Iterator[pa.RecordBatch], path: Path) -> Iterator[pa.RecordBatch]:
+    """Batches of a stream; where it breaks, an error that names the file."""
     try:
-        with opened(path, layer, batch_size) as source:
-            yield source
-    except (pa.ArrowException, pyogrio.errors.DataSourceError, pyogrio.errors.DataLayerError) as e:
-        msg = f"IN {str(path)!r} cannot be read: {e}"
-        raise ParameterError(msg) from e
+        yield from stream
+    except UNREADABLE as error:
+        msg = f"IN {str(path)!r} cannot be read to its end: {error}"
+        raise ParameterError(msg) from error
 
 
 @contextmanager
@@ -116,12 +173,11 @@ def open_parquet(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
         column = geo_column(schema.metadata, path)
         dropped = (column.name, column.covering)
         names = [name for name in schema.names if name not in dropped]
-        kinds = {kind.removesuffix(" Z") for kind in column.kinds}
         yield Source(
             layer,
             pa.schema([schema.field(name) for name in names]),
             column.name,
-            kinds.pop() if len(kinds) == 1 else "Unknown",
+            column.kind,
             column.crs,
             file.metadata.num_rows,
             file.iter_batches(batch_size, columns=[*names, column.name]),

@@ -1,7 +1,7 @@
 """Features to files: whole or not at all."""
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -32,7 +32,7 @@ class Features(NamedTuple):
     crs: str | None
 
 
-def check_free(paths: list[Path], *, overwrite: bool) -> None:
+def check_free(paths: Sequence[Path], name: str, *, overwrite: bool) -> None:
     """Refuse places that cannot be written to, before any work is done.
 
     Raises
@@ -42,37 +42,39 @@ def check_free(paths: list[Path], *, overwrite: bool) -> None:
     """
     for path in paths:
         if not path.parent.is_dir():
-            msg = f"OUT {str(path)!r} lies in a folder that does not exist"
+            msg = f"{name} {str(path)!r} lies in a folder that does not exist"
             raise ParameterError(msg)
         if path.exists() and not overwrite:
-            msg = f"OUT {str(path)!r} exists, give --overwrite to replace it"
+            msg = f"{name} {str(path)!r} exists, give --overwrite to replace it"
             raise ParameterError(msg)
 
 
 @contextmanager
-def staged(folder: Path) -> Iterator[Path]:
+def staged(folder: Path, stale: Sequence[Path] = ()) -> Iterator[Path]:
     """A temporary folder inside ``folder``: what was written there moves up once all is well.
 
-    After an error or an interrupt nothing has moved and the temporary folder is gone.
+    The files ``stale`` go away then, unless they are replaced. After an error or an interrupt
+    nothing has moved and the temporary folder is gone.
     """
     with TemporaryDirectory(dir=folder, prefix=".midrib-") as name:
-        stage = Path(name)
+        stage = Path(name) / "new"
+        stage.mkdir()
         yield stage
-        for path in sorted(stage.iterdir()):
-            target = folder / path.name
-            clear_remains(target, stage)
-            path.replace(target)
+        new = sorted(stage.iterdir())
+        for path in {*stale, *(folder / path.name for path in new)}:
+            put_aside(path, Path(name), everything=path in stale)
+        for path in new:
+            path.replace(folder / path.name)
 
 
-def clear_remains(target: Path, stage: Path) -> None:
-    """Put aside what a rename would not replace: folders, and side files of a shapefile."""
-    sides = SHAPEFILE_SIDES if target.suffix.lower() == ".shp" else ()
-    old = [target] if target.is_dir() else []
-    old += [side for ending in sides if (side := target.with_suffix(f".{ending}")).exists()]
-    for path in old:
-        aside = stage / "replaced"
-        aside.mkdir(exist_ok=True)
-        path.replace(aside / path.name)
+def put_aside(path: Path, place: Path, *, everything: bool) -> None:
+    """Move away what a rename would not replace: folders, and side files of a shapefile."""
+    endings = SHAPEFILE_SIDES if path.suffix.lower() == ".shp" else ()
+    old = [side for ending in endings if (side := path.with_suffix(f".{ending}")).exists()]
+    if path.is_dir() or (everything and path.exists()):
+        old.append(path)
+    for file in old:
+        file.replace(place / file.name)
 
 
 def write_layer(path: Path, features: Features) -> list[str]:
