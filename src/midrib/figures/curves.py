@@ -1,0 +1,43 @@
+"""The curves behind the lines of ``collapse``: its strips and radii, to be drawn."""
+
+from collections.abc import Iterator
+from inspect import signature
+from typing import TYPE_CHECKING, Any
+
+import shapely
+
+from midrib.curves.collapse import Log, valid_parts
+from midrib.curves.methods import minimal_radii_finder
+from midrib.curves.minimal_radii import Curve, minimal_radii
+from midrib.errors import MidribError
+from midrib.geodesy import degree_lengths
+from midrib.layout import boundary_of
+from midrib.ragged import rings_of_area
+from midrib.strip import PLANE, Strip, divide
+
+if TYPE_CHECKING:
+    from midrib.formats.reading import Geometries
+
+__all__ = ["curves_of"]
+
+# Options of collapse that differ from those of minimal_radii.
+DEFAULTS = {
+    name: option.default
+    for name, option in signature(minimal_radii_finder).parameters.items()
+    if option.kind is option.KEYWORD_ONLY
+}
+
+
+def curves_of(
+    areas: "Geometries", along: "Geometries | None", geographic: bool, options: dict[str, Any]
+) -> Iterator[tuple[int, Curve]]:
+    """Position of the area and curve of minimal radii, of each part that is not refused."""
+    for part in valid_parts(areas, Log(None, strict=False)):
+        scale = degree_lengths(shapely.bounds(part.polygon)) if geographic else PLANE
+        guide = None if along is None else along[part.index]
+        try:
+            layout = divide(boundary_of(*rings_of_area(part.polygon)), scale, along=guide)
+            strip = Strip._of_layout(layout, part.polygon)  # has its scale
+            yield part.index, minimal_radii(strip, **(DEFAULTS | options))
+        except MidribError:
+            continue

@@ -1,0 +1,147 @@
+"""The picture of a collapse, in the colours of the paper: sides, radii and the curve.
+
+Everything is judged by its size on paper: where an area is too thin to show its two sides apart,
+only its line is drawn, and radii are thinned out where they would run together.
+"""
+
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import shapely
+
+from midrib.curves.collapse import as_array
+from midrib.errors import MissingDependencyError, ParameterError
+from midrib.figures.curves import curves_of
+from midrib.figures.paper import Paper, sheet_for
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from midrib.curves.minimal_radii import Curve
+    from midrib.types import Floats
+
+__all__ = ["check_figure", "draw_collapse"]
+
+ENDINGS = (".svg", ".png", ".pdf")
+FILL, OUTLINE, REFUSED = "#eef1ea", "#b9c0b0", "#f6dfc9"
+MAIN, AUXILIARY, RADIUS, LINE = "#d62728", "#1f5fbf", "#8e44ad", "#000000"
+# Sizes on paper in millimetres.
+TWO_SIDES = 0.7  # narrowest area whose sides are told apart
+RADII = 1.5  # shortest radii worth drawing
+APART = 0.45  # between neighbouring radii
+LINE_WIDTH = (0.08, 0.4)  # a seventh of the area's width, between these
+
+
+@dataclass
+class Strokes:
+    """Chains of coordinates to draw, by what they are."""
+
+    main: "list[Floats]" = field(default_factory=list)
+    auxiliary: "list[Floats]" = field(default_factory=list)
+    radii: "list[Floats]" = field(default_factory=list)
+    line: "list[Floats]" = field(default_factory=list)
+    widths: list[float] = field(default_factory=list)  # of the areas the lines are in, on paper
+
+
+def draw_collapse(
+    areas: Any,
+    path: str | Path | None = None,
+    *,
+    along: Any = None,
+    geographic: bool = False,
+    unit: str | None = None,
+    width: float = 240.0,
+    **options: Any,
+) -> "Figure":
+    """Draw areas with their main and auxiliary curves, radii and the curve of minimal radii.
+
+    Parameters
+    ----------
+    areas : Polygon, MultiPolygon or array_like of them
+        Missing and empty ones are passed over; those that are refused have a colour of their own.
+    path : str or Path, optional
+        File to write, .svg, .png or .pdf.
+    along : LineString or array_like of them, optional
+        Directional polylines, one for each area or None, as in ``midrib.collapse``.
+    geographic : bool, default False
+        Whether coordinates are degrees of longitude and latitude; the scale bar is in metres then.
+    unit : str, optional
+        Name of the coordinate unit, for the scale bar.
+    width : float, default 240
+        Width of the sheet in millimetres, or its height where the areas extend further in y.
+    **options
+        Those of ``midrib.collapse``.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    MissingDependencyError
+        If matplotlib is not installed.
+    ParameterError
+        If the file has another ending.
+    """
+    if path is not None:
+        check_figure(Path(path))
+    areas, guides = as_array(areas).ravel(), None if along is None else as_array(along).ravel()
+    paper = sheet_for(areas, geographic, width)
+    strokes, drawn = Strokes(), np.zeros(areas.size, dtype=np.bool_)
+    for index, curve in curves_of(areas, guides, geographic, options):
+        drawn[index] = True
+        add_strokes(strokes, curve, paper)
+    paper.fill(areas[drawn], FILL, OUTLINE, "area")
+    paper.fill(areas[~drawn], REFUSED, OUTLINE, "refused")
+    paper.stroke(strokes.radii, RADIUS, 0.12, "radii")
+    paper.stroke(strokes.main, MAIN, 0.25, "main curve")
+    paper.stroke(strokes.auxiliary, AUXILIARY, 0.25, "auxiliary curve")
+    bold = np.clip(0.15 * np.array(strokes.widths), *LINE_WIDTH)
+    paper.stroke(strokes.line, LINE, bold, "curve of minimal radii")
+    paper.finish(unit)
+    if path is not None:
+        paper.save(Path(path))
+    return paper.figure
+
+
+def add_strokes(strokes: Strokes, curve: "Curve", paper: Paper) -> None:
+    """Add what of a curve can be told apart on paper."""
+    strokes.line.append(shapely.get_coordinates(curve.line))
+    span = np.stack([curve.on_main, curve.on_auxiliary], axis=1)
+    across = paper.millimetres(span[:, 1] - span[:, 0])
+    across_middle = float(np.median(across))
+    strokes.widths.append(across_middle)
+    if across_middle < TWO_SIDES:
+        return
+    strokes.main.append(shapely.get_coordinates(curve.strip.main))
+    strokes.auxiliary.append(shapely.get_coordinates(curve.strip.auxiliary))
+    if across_middle >= RADII:
+        strokes.radii.extend(span[spread(paper.millimetres(curve.points[1:] - curve.points[:-1]))])
+
+
+def spread(steps: "Floats") -> "Floats":
+    """Which of a row of radii to draw, so that they do not run together: mask, one longer."""
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    cell = np.floor(along / APART)
+    return np.concatenate([[True], cell[1:] > cell[:-1]])
+
+
+def check_figure(path: Path) -> None:
+    """Refuse a figure that cannot be drawn.
+
+    Raises
+    ------
+    ParameterError
+        If the ending is not that of a kind of picture.
+    MissingDependencyError
+        If matplotlib is not installed.
+    """
+    if path.suffix.lower() not in ENDINGS:
+        msg = f"--figure {str(path)!r} ends in {path.suffix!r}, expected {', '.join(ENDINGS)}"
+        raise ParameterError(msg)
+    if find_spec("matplotlib") is None:
+        msg = "a figure needs matplotlib: pip install midrib[figures]"
+        raise MissingDependencyError(msg)
