@@ -1,0 +1,36 @@
+"""The ``midrib`` command; ``python -m midrib`` is the same."""
+
+import signal
+import sys
+import warnings
+
+from midrib.errors import MidribError, MissingDependencyError
+
+__all__ = ["main"]
+
+WRONG_USAGE, INTERRUPTED = 2, 130
+
+
+def main() -> None:
+    """Run the command line and leave with its exit code."""
+    from midrib.cli.app import app
+
+    # Temporary files are cleared away as after Ctrl-C.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    warnings.formatwarning = lambda message, *_, **__: f"midrib: note: {message}\n"
+    try:
+        app(prog_name="midrib")
+    except (MidribError, MissingDependencyError) as error:
+        leave(str(error), WRONG_USAGE)
+    except KeyboardInterrupt:
+        leave("interrupted, nothing is written", INTERRUPTED)
+
+
+def leave(sentence: str, code: int) -> None:
+    """Say why on stderr and exit."""
+    sys.stderr.write(f"midrib: {sentence}\n")
+    raise SystemExit(code)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+"""The commands that there are."""
+
+from typing import Annotated
+
+import typer
+
+from midrib import __version__
+from midrib.cli.collapse import collapse
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    help="One unbranched line inside a long area: centre lines of rivers, roads, slopes.",
+    epilog="Example:  midrib collapse rivers.gpkg centrelines.gpkg",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command(
+    epilog="Examples:  midrib collapse rivers.gpkg out.gpkg --spacing 5m  ·  "
+    "midrib collapse slopes.gpkg out.gpkg --layer slope --main crest:slope_id"
+)(collapse)
+
+
+def show_version(is_asked: bool) -> None:
+    """Print the version and leave."""
+    if is_asked:
+        typer.echo(f"midrib {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    _version: Annotated[
+        bool,
+        typer.Option("--version", callback=show_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Take the options that every command has."""
+
+
+@app.command()
+def methods() -> None:
+    """List the methods that collapse areas: name, source, what each can do and costs."""
+    import midrib
+
+    rows: list[tuple[str, ...]] = [("name", "source", "holes", "exact", "cost")]
+    for method in midrib.methods():
+        able = ("yes" if it else "no" for it in (method.supports_holes, method.is_exact))
+        rows.append((method.name, method.source, *able, method.cost))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        typer.echo("  ".join(cells).rstrip())

@@ -1,0 +1,165 @@
+"""The command ``midrib collapse``."""
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from midrib.errors import ParameterError
+
+__all__ = ["collapse"]
+
+CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
+LAYERS, LINE, OUTPUT = "Which features", "How the line is made", "Output"
+
+
+class EndRule(StrEnum):
+    """Rules for the ends of a line."""
+
+    main = "main"
+    caps = "caps"
+    radii = "radii"
+    none = "none"
+
+
+def collapse(  # noqa: PLR0917  # every argument and option is a parameter
+    source: Annotated[
+        Path, typer.Argument(metavar="IN", help="Vector file with areas.", show_default=False)
+    ],
+    out: Annotated[
+        Path,
+        typer.Argument(
+            metavar="OUT",
+            help="File for the lines; its ending chooses the format: .gpkg .parquet .fgb .geojson "
+            ".shp .gml .csv .dxf …",
+            show_default=False,
+        ),
+    ],
+    layer: Annotated[
+        str | None,
+        typer.Option(
+            help="Layer of IN; needed if several hold areas.",
+            rich_help_panel=LAYERS,
+            metavar="NAME",
+        ),
+    ] = None,
+    main: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LAYER[:ID]|FIELD",
+            help="Directional polylines, whose side of the area the line follows: a layer of IN "
+            "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
+            rich_help_panel=LAYERS,
+        ),
+    ] = None,
+    method: Annotated[
+        str, typer.Option(help="One of [bold]midrib methods[/].", rich_help_panel=LINE)
+    ] = "minimal-radii",
+    spacing: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH",
+            help="Interval of the radii: 2m, 50cm, 10ft; a plain number is in units of the CRS, "
+            "metres if it is geographic. Half the mean width unless you say otherwise.",
+            rich_help_panel=LINE,
+        ),
+    ] = None,
+    count: Annotated[
+        int | None, typer.Option(help="Or: number of intervals.", rich_help_panel=LINE)
+    ] = None,
+    percent: Annotated[
+        float | None,
+        typer.Option(help="Or: interval in percent of the side's length.", rich_help_panel=LINE),
+    ] = None,
+    vertices: Annotated[
+        bool, typer.Option(help="Radii at the vertices of the side too.", rich_help_panel=LINE)
+    ] = True,
+    ends: Annotated[
+        EndRule,
+        typer.Option(
+            help="Where the line ends: at the ends of the main side, in the middles of the end "
+            "caps, at the middles of the last radii to other segments, or with the last radius.",
+            rich_help_panel=LINE,
+        ),
+    ] = EndRule.caps,
+    end_clearance: Annotated[
+        str,
+        typer.Option(
+            metavar="station|proportional|none|LENGTH",
+            help="What keeps radii out of a tip.",
+            rich_help_panel=LINE,
+        ),
+    ] = "proportional",
+    out_layer: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help="Layer of OUT; named as in IN unless you say otherwise.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help="Draw areas and lines too: .svg .png .pdf", rich_help_panel=OUTPUT
+        ),
+    ] = None,
+    overwrite: Annotated[
+        bool, typer.Option("--overwrite", help="Replace files.", rich_help_panel=OUTPUT)
+    ] = False,
+    quiet: Annotated[
+        bool, typer.Option("--quiet", "-q", help="No progress, no summary.", rich_help_panel=OUTPUT)
+    ] = False,
+) -> None:
+    """Collapse areas to lines: one line without branches inside each.
+
+    Attributes and CRS are kept. New columns: length, width_mean, width_max (in units of the CRS,
+    metres if it is geographic) and status. Areas that are refused go to a layer, or a file,
+    "…_refused" with the reason. Exit code 0: done, 1: some refused, 2: wrong usage.
+    """
+    from midrib.cli.guides import guides_for
+    from midrib.cli.job import check_options, collapse_layer
+    from midrib.cli.output import Places, draw
+    from midrib.cli.report import Report
+    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.units import length_in
+
+    places = Places(source, out, figure)
+    places.check(overwrite=overwrite)
+    layer = choose_layer(source, layer)
+    report = Report(quiet=quiet)
+    with open_layer(source, layer) as features:
+        options: dict[str, Any] = {
+            "ends": None if ends is EndRule.none else ends.value,
+            "end_clearance": clearance(end_clearance, features.crs),
+            "vertices": vertices,
+        }
+        if spacing is not None:
+            options["spacing"] = length_in(spacing, features.crs, "--spacing")
+        if count is not None:
+            options["count"] = count
+        if percent is not None:
+            options["percent"] = percent
+        check_options(method, options)
+        guides = guides_for(main, source, features)
+        results = collapse_layer(features, method, options, guides, report)
+    places.write(results, out_layer or layer, report)
+    if figure is not None:
+        with open_layer(source, layer) as features:
+            draw(features, guides, options, figure)
+    if results.n_refused:
+        raise typer.Exit(1)
+
+
+def clearance(text: str, crs: str | None) -> str | float | None:
+    """The clearance at the ends: the name of a rule, None or a length."""
+    from midrib.formats.units import length_in
+
+    if text in CLEARANCES:
+        return CLEARANCES[text]
+    try:
+        return length_in(text, crs, "--end-clearance")
+    except ParameterError as error:
+        msg = f"{error}, or station, proportional, none"
+        raise ParameterError(msg) from None

@@ -1,0 +1,140 @@
+"""The work of ``midrib collapse``: batches of features in, lines and refused areas out."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pyarrow as pa
+import shapely
+
+from midrib import measures
+from midrib.curves.collapse import Problem, collapse
+from midrib.curves.methods import finder_of
+from midrib.formats.units import is_geographic
+
+if TYPE_CHECKING:
+    from midrib.cli.guides import Guides
+    from midrib.cli.report import Report
+    from midrib.formats.reading import Batch, Geometries, Source
+    from midrib.types import Floats
+
+__all__ = ["Results", "check_options", "collapse_layer"]
+
+NO_GEOMETRY = "no geometry"
+
+
+@dataclass
+class Results:
+    """What has become of a layer, batch by batch."""
+
+    source: "Source"
+    attributes: list[pa.Table] = field(default_factory=list)
+    lines: "list[Geometries]" = field(default_factory=list)
+    refused_attributes: list[pa.Table] = field(default_factory=list)
+    refused_areas: "list[Geometries]" = field(default_factory=list)
+    total_length: float = 0.0
+    n_features: int = 0
+    n_lines: int = 0
+    n_refused: int = 0
+    n_repaired: int = 0
+
+
+def check_options(method: str, options: dict[str, Any]) -> None:
+    """Refuse a method or an option that there is not, even where no feature needs it."""
+    finder_of(method, **options)
+
+
+def collapse_layer(
+    source: "Source",
+    method: str,
+    options: dict[str, Any],
+    guides: "Guides",
+    report: "Report",
+) -> Results:
+    """Collapse all features of a layer, a batch at a time."""
+    results = Results(source)
+    geographic = is_geographic(source.crs)
+    report.start()
+    for batch in report.track(source.batches(), source.count):
+        along, unreadable = guides.of(batch)
+        lines, problems = collapse(
+            batch.geometries,
+            method,
+            on_error="report",
+            along=along,
+            geographic=geographic,
+            **options,
+        )
+        lines[shapely.is_empty(lines)] = None
+        refused = dict(batch.unreadable) | unreadable
+        lines[list(unreadable)] = None
+        status = statuses(batch, problems, refused)
+        add_lines(results, batch, lines, status=status, refused=refused, geographic=geographic)
+        add_refused(results, batch, refused)
+        results.n_features += len(lines)
+        results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
+    return results
+
+
+def statuses(batch: "Batch", problems: list[Problem], refused: dict[int, str]) -> list[str]:
+    """Text about each feature; reasons of refusals are added to ``refused``."""
+    said: list[list[str]] = [[] for _ in batch.geometries]
+    for index, part, status, reason in problems:
+        where = f"part {part} " if part else ""
+        said[index].append(f"{where}{status}: {reason.removesuffix(f' {status}')}")
+        if status == "refused":
+            refused.setdefault(index, f"{where and f'{where.strip()}: '}{reason}")
+    there = ~(shapely.is_missing(batch.geometries) | shapely.is_empty(batch.geometries))
+    return ["; ".join(s) or ("ok" if t else NO_GEOMETRY) for s, t in zip(said, there, strict=True)]
+
+
+def add_lines(
+    results: Results,
+    batch: "Batch",
+    lines: "Geometries",
+    *,
+    status: list[str],
+    refused: dict[int, str],
+    geographic: bool,
+) -> None:
+    """Keep the features that have a line, and those that never had a geometry."""
+    keep = ~shapely.is_missing(lines)
+    keep[[i for i in range(len(lines)) if i not in refused]] = True
+    rows = np.flatnonzero(keep)
+    lines, areas = lines[rows], batch.geometries[rows]
+    length = measures.length(lines, geographic=geographic)
+    columns = {
+        "length": numbers(length),
+        "width_mean": numbers(measures.mean_width(lines, areas, geographic=geographic)),
+        "width_max": numbers(measures.largest_width(lines, areas, geographic=geographic)),
+        "status": pa.array([status[i] for i in rows], type=pa.string()),
+    }
+    results.attributes.append(with_columns(batch.attributes.take(rows), columns))
+    results.lines.append(lines)
+    results.n_lines += int(np.count_nonzero(~shapely.is_missing(lines)))
+    results.total_length += float(np.nansum(length))
+
+
+def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> None:
+    """Keep the areas that were refused, with the reason."""
+    rows = np.array(sorted(refused), dtype=np.intp)
+    columns = {"reason": pa.array([refused[i] for i in rows], type=pa.string())}
+    results.refused_attributes.append(with_columns(batch.attributes.take(rows), columns))
+    results.refused_areas.append(batch.geometries[rows])
+    results.n_refused += len(rows)
+
+
+def numbers(values: "Floats") -> pa.Array:
+    """A column of numbers, null where they are NaN."""
+    return pa.array(values, type=pa.float64(), from_pandas=True)
+
+
+def with_columns(table: pa.Table, columns: dict[str, pa.Array]) -> pa.Table:
+    """Table with columns added, numbered on where a name is taken: ``length_2``."""
+    for name, values in columns.items():
+        taken = {known.lower() for known in table.column_names}
+        free, number = name, 2
+        while free in taken:
+            free, number = f"{name}_{number}", number + 1
+        table = table.append_column(free, values)
+    return table

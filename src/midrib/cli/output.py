@@ -1,0 +1,120 @@
+"""Where the results of ``midrib collapse`` go: lines, refused areas, a figure, a summary."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import pyarrow as pa
+
+from midrib.errors import ParameterError
+from midrib.figures.draw import check_figure, draw_collapse
+from midrib.formats.endings import format_of
+from midrib.formats.units import Unit, is_geographic, unit_of
+from midrib.formats.writing import Features, check_free, staged, write_layer
+
+if TYPE_CHECKING:
+    from midrib.cli.guides import Guides
+    from midrib.cli.job import Results
+    from midrib.cli.report import Report
+    from midrib.formats.reading import Source
+
+__all__ = ["Places", "draw"]
+
+LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
+KILO = 1000.0
+MANY = 10_000.0  # from so many metres on, lengths are in kilometres
+
+
+class Places(NamedTuple):
+    """The files of one run."""
+
+    source: Path
+    out: Path
+    figure: Path | None
+
+    @property
+    def refused(self) -> Path:
+        """File for refused areas: OUT where its format has layers, else one beside it."""
+        if format_of(self.out).has_layers:
+            return self.out
+        return self.out.with_name(f"{self.out.stem}_refused{self.out.suffix}")
+
+    def check(self, *, overwrite: bool) -> None:
+        """Refuse places that cannot be written to, before any work is done.
+
+        Raises
+        ------
+        ParameterError
+            If OUT has an unknown ending, is IN, or exists and is not to be overwritten.
+        """
+        format_of(self.out)
+        if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
+            msg = f"OUT {str(self.out)!r} is IN, expected another file"
+            raise ParameterError(msg)
+        check_free([self.out, self.refused], "OUT", overwrite=overwrite)
+        if self.figure is not None:
+            check_figure(self.figure)
+            check_free([self.figure], "--figure", overwrite=overwrite)
+
+    def write(self, results: "Results", layer: str, report: "Report") -> None:
+        """Write everything, whole or not at all; then sum up."""
+        source = results.source
+        lines = Features(
+            layer,
+            pa.concat_tables(results.attributes),
+            np.concatenate(results.lines),
+            source.geometry,
+            LINE_OF.get(source.kind, "LineString"),
+            source.crs,
+        )
+        with staged(self.out.parent, stale=[self.refused]) as stage:
+            notes = write_layer(stage / self.out.name, lines)
+            if results.n_refused:
+                refused = lines._replace(
+                    layer=f"{layer}_refused",
+                    attributes=pa.concat_tables(results.refused_attributes),
+                    geometries=np.concatenate(results.refused_areas),
+                    kind=source.kind,
+                )
+                notes += write_layer(stage / self.refused.name, refused)
+        for note in dict.fromkeys(notes):
+            report.say(f"note: {note}")
+        report.say(summary(results, report.elapsed))
+        report.say(f"written to {self.out}")
+        if results.n_refused:
+            where = f"layer {layer}_refused of {self.out}" if self.refused == self.out else ""
+            report.say(f"refused areas, with reasons, in {where or self.refused}")
+
+
+def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:
+    """Draw the areas of a layer and what they collapse to in a file, whole or not at all."""
+    batches = list(source.batches())
+    unit = unit_of(source.crs)
+    with staged(figure.parent) as easel:
+        draw_collapse(
+            np.concatenate([batch.geometries for batch in batches]),
+            easel / figure.name,
+            along=np.concatenate([guides.of(batch)[0] for batch in batches]),
+            geographic=is_geographic(source.crs),
+            unit=None if unit is None else unit.name,
+            **options,
+        )
+
+
+def summary(results: "Results", seconds: float) -> str:
+    """One line about a run."""
+    length = length_text(results.total_length, unit_of(results.source.crs))
+    rate = results.n_features / seconds
+    return (
+        f"{results.n_lines} lines of {results.n_features} features, {results.n_refused} refused, "
+        f"{results.n_repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
+    )
+
+
+def length_text(length: float, unit: Unit | None) -> str:
+    """A length for people: ``12.3 km``, ``840.0 m``, ``12.0 US survey foot``, ``3.1 units``."""
+    if unit is None:
+        return f"{length:.4g} units"
+    if unit.metres == 1.0 and length >= MANY:
+        return f"{length / KILO:,.1f} km"
+    return f"{length:,.1f} {unit.name}"

@@ -1,0 +1,79 @@
+"""What a command says on stderr: that kernels are compiled, how far it is, what came of it."""
+
+import time
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    ProgressColumn,
+    Task,
+    TextColumn,
+    TimeRemainingColumn,
+)
+from rich.text import Text
+from shapely import box
+
+if TYPE_CHECKING:
+    from midrib.formats.reading import Batch
+
+__all__ = ["Report"]
+
+WARM_UP = box(0.0, 0.0, 3.0, 1.0)
+
+
+class Rate(ProgressColumn):
+    """Features per second."""
+
+    def render(self, task: Task) -> Text:
+        """Show the rate once there is one."""
+        speed = task.finished_speed or task.speed
+        return Text("" if speed is None else f"{speed:,.0f}/s")
+
+
+class Report:
+    """Says things on stderr, unless it is quiet."""
+
+    def __init__(self, *, quiet: bool) -> None:
+        self.console = Console(stderr=True, quiet=quiet, highlight=False, soft_wrap=True)
+        self.started = time.perf_counter()
+
+    def say(self, sentence: str) -> None:
+        """Print one line."""
+        self.console.print(sentence, markup=False)
+
+    def start(self) -> None:
+        """Load the kernels, and tell where that takes long; time counts from now on."""
+        from midrib.curves.collapse import collapse
+        from midrib.kernels.jit import cache_folder
+
+        if next(cache_folder().rglob("*.nbi"), None) is None:
+            self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
+        collapse(WARM_UP)
+        self.started = time.perf_counter()
+
+    def track(self, batches: Iterable["Batch"], count: int | None) -> Iterator["Batch"]:
+        """Show a progress bar while batches are worked on, if there is a terminal."""
+        bar = Progress(
+            TextColumn("collapsing"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            Rate(),
+            TimeRemainingColumn(compact=True),
+            console=self.console,
+            transient=True,
+            disable=self.console.quiet or not self.console.is_terminal,
+        )
+        with bar:
+            task = bar.add_task("", total=count)
+            for batch in batches:
+                yield batch
+                bar.advance(task, len(batch.geometries))
+
+    @property
+    def elapsed(self) -> float:
+        """Seconds since the kernels were ready."""
+        return time.perf_counter() - self.started
