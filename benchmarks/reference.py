@@ -26,6 +26,7 @@ from families import Case, Floats
 __all__ = ["Axis", "axis_of"]
 
 SAMPLES_PER_WIDTH = 60
+STRAIGHT = 1e-4  # deviation up to which the trunk's points are left out, in widths
 NEAR = 1e-3  # what a step along the trunk costs beside a line that it lies on, in widths
 
 
@@ -56,7 +57,8 @@ class Axis:
         while path[-1] != start:
             path.append(int(before[path[-1]]))
         first, last = self.case.ends
-        return LineString(np.vstack([first, self.nodes[path[::-1]], last]))
+        trunk = LineString(np.vstack([first, self.nodes[path[::-1]], last]))
+        return trunk.simplify(STRAIGHT * self.case.width)
 
 
 def axis_of(case: Case) -> Axis:
@@ -67,6 +69,7 @@ def axis_of(case: Case) -> Axis:
     origin = points.mean(axis=0)  # far from it, the diagram would lose digits
     diagram = Voronoi(points - origin)
     nodes = diagram.vertices + origin
+    shapely.prepare(case.area)
     inside = shapely.contains_xy(case.area, nodes)
     links = np.asarray(diagram.ridge_vertices, dtype=np.intp)
     links = links[(links >= 0).all(axis=1) & inside[links].all(axis=1)]

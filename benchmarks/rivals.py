@@ -71,6 +71,7 @@ def by_voronoi(area: Polygon, width: float) -> LineString:
     origin = points.mean(axis=0)
     diagram = Voronoi(points - origin)
     nodes = diagram.vertices + origin
+    shapely.prepare(area)
     inside = shapely.contains_xy(area, nodes)
     links = np.asarray(diagram.ridge_vertices)
     links = links[(links >= 0).all(axis=1) & inside[links].all(axis=1)]

@@ -118,11 +118,13 @@ def score_of(case: Case, axis: Axis, line: BaseGeometry | None, *, is_exact: boo
 
 def places_on(line: BaseGeometry, step: float) -> Floats:
     """Points along a line, or along every part of one, at equal steps."""
-    points = []
+    places = []
     for part in shapely.get_parts(line):
-        at = np.linspace(0.0, part.length, max(2, int(np.ceil(part.length / step)) + 1))
-        points.append(shapely.get_coordinates(shapely.line_interpolate_point(part, at)))
-    return np.concatenate(points)
+        points = shapely.get_coordinates(part)
+        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        at = np.linspace(0.0, arc[-1], max(2, int(np.ceil(arc[-1] / step)) + 1))
+        places.append(np.column_stack([np.interp(at, arc, column) for column in points.T]))
+    return np.concatenate(places)
 
 
 def offsets(line: BaseGeometry, trunk: LineString, w: float) -> list[Floats]:
