@@ -23,9 +23,18 @@ class End:
     other: int
     share: float = 0.0
 
+    @property
+    def position(self) -> float:
+        """Place and share in one number."""
+        return self.place + self.share
+
+    def turned(self) -> "End":
+        """Return the end with its cap the other way."""
+        return End(self.other, self.place, self.share)
+
 
 def propose_ends(boundary: Boundary, scale: Scale, source: int = -1) -> tuple[End, End]:
-    """The two ends of an area, the mesh vertex ``source`` kept as the first one if it is given."""
+    """Return an area's two ends; the mesh vertex ``source``, if it is given, is the first one."""
     places, shares = kernel.propose_ends(
         boundary.mesh, boundary.order, boundary.n_shell, source, not boundary.has_holes, *scale
     )
@@ -45,7 +54,7 @@ def lay_out_ends(
 
 
 def end_at(boundary: Boundary, point: Floats, scale: Scale) -> End:
-    """The place of the shell nearest to a point (in the area's units)."""
+    """Return the place of the shell nearest to a point (in the area's units)."""
     x, y = (c[boundary.order] * s for c, s in zip(boundary.mesh[:2], scale, strict=True))
     px, py = point[0] * scale[0], point[1] * scale[1]
     dx, dy = np.roll(x, -1) - x, np.roll(y, -1) - y

@@ -13,6 +13,7 @@ from midrib.types import Floats, Ints
 __all__ = [
     "Boundary",
     "Chain",
+    "EndPoint",
     "Layout",
     "Main",
     "Scale",
@@ -50,6 +51,16 @@ class Boundary(NamedTuple):
     height: Floats | None  # of each mesh vertex
 
 
+class EndPoint(NamedTuple):
+    """A point for an end of a curve, and where on the boundary the search for it begins."""
+
+    point: tuple[float, float]
+    origin: tuple[float, float]
+    side: int
+    vertex: int  # mesh vertex that the origin is, or -1
+    height: float  # Z, NaN if unknown
+
+
 class Layout(NamedTuple):
     """Everything that the construction needs to know about a strip."""
 
@@ -57,7 +68,7 @@ class Layout(NamedTuple):
     main: Chain
     auxiliary: Chain
     target: Ints  # for each half-edge the auxiliary segment on it, or -1
-    middle: tuple[int, int]  # mesh vertices in the middle of the start and of the end
+    middle: tuple[EndPoint, EndPoint]  # halfway between the two curves' starts, and their ends
     scale: Scale
     height: Floats | None
     mean_width: float  # area within the shell over the mean length of the two curves
@@ -85,7 +96,7 @@ def boundary_of(rings: Rings, height: Floats | None = None) -> Boundary:
         done = mesh_rings(rings.x, rings.y, rings.ring_next)
         if done.status > 0:
             k = done.status - 1
-            msg = f"the boundary crosses or repeats itself near ({rings.x[k]:.12g}, {rings.y[k]:.12g})"
+            msg = f"the boundary crosses itself near ({rings.x[k]:.12g}, {rings.y[k]:.12g})"
             raise InvalidAreaError(msg)
         if done.status < 0:
             msg = f"triangulation of {rings.x.size} vertices did not end"
@@ -128,22 +139,32 @@ def lay_out(
         If the ends are one point.
     """
     height = NO_HEIGHT if boundary.height is None else boundary.height
-    is_divided, mesh, height, middle, *chains, target, width = divide_shell(
-        boundary.mesh, boundary.order, boundary.side, height, places, shares, RULES[main], *scale
+    is_divided, mesh, height, middle, middle_at, v_m, s_m, a_m, v_a, s_a, a_a, target, width = (
+        divide_shell(
+            boundary.mesh,
+            boundary.order,
+            boundary.side,
+            height,
+            places,
+            shares,
+            RULES[main],
+            *scale,
+        )
     )
     if not is_divided:
-        v = middle[0]
-        msg = (
-            "start and end are the same point of the boundary, "
-            f"({mesh.x[v]:.12g}, {mesh.y[v]:.12g})"
-        )
+        x, y, _ = middle[0]
+        msg = f"start and end are the same point of the boundary, ({x:.12g}, {y:.12g})"
         raise InvalidAreaError(msg)
+    start, end = (
+        EndPoint((x, y), (x, y), side, vertex, z)
+        for (x, y, z), (side, vertex) in zip(middle.tolist(), middle_at.tolist(), strict=True)
+    )
     return Layout(
         mesh,
-        Chain(*chains[:3]),
-        Chain(*chains[3:]),
+        Chain(v_m, s_m, a_m),
+        Chain(v_a, s_a, a_a),
         target,
-        (int(middle[0]), int(middle[1])),
+        (start, end),
         scale,
         height if height.size else None,
         width,

@@ -4,17 +4,18 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 from shapely import MultiPolygon, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.kernels.rings import Rings, normalise_rings
 from midrib.types import Floats, Ints
 
-__all__ = ["Packed", "area_of_one", "pack_areas", "place_text", "rings_of", "rings_of_area"]
+__all__ = ["Packed", "area_of_one", "pack_areas", "place_text", "rings_of_area"]
 
 
 class Packed(NamedTuple):
-    """Polygons as arrays: all coordinates, where each ring starts, where each polygon's rings do."""
+    """Polygons as arrays: coordinates, where each ring starts, where each polygon's rings do."""
 
     coordinates: Floats  # (n, 2 or 3)
     ring_offsets: Ints
@@ -31,20 +32,12 @@ class Packed(NamedTuple):
 PLANAR = 2
 
 
-def pack_areas(polygons: "np.ndarray[tuple[int], np.dtype[np.object_]]") -> Packed:
+def pack_areas(polygons: NDArray[np.object_]) -> Packed:
     """Arrays of an array of Polygons, none missing or empty."""
     has_z = bool(shapely.has_z(polygons).any())
     _, coordinates, offsets = shapely.to_ragged_array(polygons, include_z=has_z)
     rings, areas = (np.ascontiguousarray(o, dtype=np.intp) for o in offsets)
     return Packed(np.ascontiguousarray(coordinates), rings, areas)
-
-
-def rings_of(rings: list[Floats]) -> tuple[Rings, Floats | None]:
-    """Rings in normal form from closed rings of coordinates, and the Z of each row or None."""
-    rows = np.concatenate(rings)
-    offsets = np.zeros(len(rings) + 1, dtype=np.intp)
-    np.cumsum([len(ring) for ring in rings], out=offsets[1:])
-    return normalise_rings(rows, offsets), (rows[:, 2] if rows.shape[1] > PLANAR else None)
 
 
 def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:
@@ -53,7 +46,7 @@ def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:
 
 
 def area_of_one(area: object, name: str) -> Polygon:
-    """A valid Polygon, or the only part of a MultiPolygon."""
+    """Return a valid Polygon, or the only part of a MultiPolygon."""
     if isinstance(area, MultiPolygon) and len(area.geoms) == 1:
         area = area.geoms[0]
     if not isinstance(area, Polygon):

@@ -1,4 +1,4 @@
-"""Areas that are not valid: repaired where there is no doubt how, refused with a reason elsewhere."""
+"""Areas that are not valid: repaired where there is no doubt how, otherwise refused."""
 
 import numpy as np
 import shapely

@@ -10,7 +10,7 @@ from shapely import LineString, Polygon
 from midrib.ends import End, end_at, lay_out_ends, propose_ends
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.layout import Boundary, Layout, Scale, boundary_of
-from midrib.ragged import area_of_one, place_text, rings_of, rings_of_area
+from midrib.ragged import area_of_one, place_text, rings_of_area
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -21,7 +21,6 @@ Position: TypeAlias = "shapely.Point | tuple[float, float]"
 PLANE: Scale = (1.0, 1.0)
 MIN_POINTS, MIN_RING = 2, 3
 HALF = 0.5
-BOUNDARY_SAMPLES = 1000  # places at which a curve is held against the boundary, vertices besides
 ON_BOUNDARY = 1e-9  # a curve is on the boundary if it is this near, as a share of the extent
 
 
@@ -67,15 +66,15 @@ class Strip:
         self, main: LineString, auxiliary: LineString, area: Polygon | None = None
     ) -> None:
         main, auxiliary = checked_curve(main, "main"), checked_curve(auxiliary, "auxiliary")
-        self.main, self.auxiliary = main, beside(auxiliary, main)
-        ring = ring_of(self.main, self.auxiliary)
+        ways = beside(auxiliary, main)
         if area is None:
-            check_ring(self.main, self.auxiliary, ring)
-            self.area = Polygon(ring)
+            auxiliary, ring = ways[0], ring_of(main, ways[0])
+            check_ring(main, auxiliary, ring)
+            area = Polygon(ring)
         else:
-            self.area = area_of_one(area, "area")
-            check_division(self.main, self.auxiliary, ring, self.area)
-        self._ring = ring
+            area = area_of_one(area, "area")
+            auxiliary = check_division(main, ways, area)
+        self.main, self.auxiliary, self.area = main, auxiliary, area
 
     def __repr__(self) -> str:
         """Show the sizes of the two curves."""
@@ -100,17 +99,24 @@ class Strip:
     @cached_property
     def layout(self) -> Layout:
         """The strip as the kernels see it."""
-        has_z = self._ring.shape[1] == 3
-        holes = [shapely.get_coordinates(h, include_z=has_z) for h in self.area.interiors]
-        boundary = boundary_of(*rings_of([self._ring, *holes]))
-        mesh, order = boundary.mesh, boundary.order
-        place = {xy: i for i, xy in enumerate(zip(mesh.x[order], mesh.y[order], strict=True))}
-        ends = shapely.get_coordinates([self.main, self.auxiliary])
-        n = len(self.main.coords)
-        first, last, before, after = (place[tuple(ends[i])] for i in (0, n - 1, n, -1))
-        if shapely.is_ccw(shapely.linearrings(self._ring[:, :2])):
-            return lay_out_ends(boundary, End(before, first), End(last, after), PLANE, "with")
-        return lay_out_ends(boundary, End(first, before), End(after, last), PLANE, "against")
+        boundary = boundary_of(*rings_of_area(self.area))
+        middle = shapely.get_coordinates(self.main.interpolate(0.5, normalized=True))
+        corners = shapely.get_coordinates([self.main, self.auxiliary])
+        n, count = len(boundary.order), len(self.main.coords)
+        first, last, first_beside, last_beside, halfway = (
+            end_at(boundary, point, PLANE)
+            for point in (corners[0], corners[count - 1], corners[count], corners[-1], middle[0])
+        )
+        for end, other in ((first, first_beside), (last, last_beside)):
+            if end != other and (end.share or other.share):
+                x, y = corners[count] if other is first_beside else corners[-1]
+                msg = f"a cap ends at ({x:.12g}, {y:.12g}), expected a vertex of the area"
+                raise InvalidAreaError(msg)
+        start = first if first == first_beside else End(first_beside.place, first.place)
+        stop = last if last == last_beside else End(last.place, last_beside.place)
+        if (halfway.position - first.position) % n < (last.position - first.position) % n:
+            return lay_out_ends(boundary, start, stop, PLANE, "with")
+        return lay_out_ends(boundary, start.turned(), stop.turned(), PLANE, "against")
 
 
 def split(
@@ -164,9 +170,7 @@ def split(
     """
     area = area_of_one(area, "area")
     boundary = boundary_of(*rings_of_area(area))
-    return Strip._of_layout(  # noqa: SLF001  # the same module's own constructor
-        divide(boundary, PLANE, along=along, start=start, end=end), area
-    )
+    return Strip._of_layout(divide(boundary, PLANE, along=along, start=start, end=end), area)
 
 
 def divide(
@@ -229,7 +233,7 @@ def position(value: object, name: str) -> "Floats":
 
 
 def checked_curve(curve: object, name: str) -> LineString:
-    """A LineString with at least two distinct points, without repeats in a row."""
+    """Return a LineString with at least two distinct points, without repeats in a row."""
     if not isinstance(curve, LineString):
         kind = getattr(curve, "geom_type", type(curve).__name__)
         msg = f"{name} is a {kind}, expected a LineString"
@@ -246,16 +250,17 @@ def checked_curve(curve: object, name: str) -> LineString:
     return LineString(points[distinct])
 
 
-def beside(auxiliary: LineString, main: LineString) -> LineString:
-    """The auxiliary curve, turned if its ends are nearer to the main curve's the other way."""
+def beside(auxiliary: LineString, main: LineString) -> tuple[LineString, LineString]:
+    """Return the auxiliary curve both ways, first the one whose ends are nearer to main's."""
     a, m = shapely.get_coordinates(auxiliary)[[0, -1]], shapely.get_coordinates(main)[[0, -1]]
     as_is = np.hypot(*(a - m).T).sum()
     turned = np.hypot(*(a[::-1] - m).T).sum()
-    return auxiliary if as_is <= turned else LineString(np.array(auxiliary.coords)[::-1])
+    ways = auxiliary, shapely.reverse(auxiliary)
+    return ways if as_is <= turned else ways[::-1]
 
 
 def ring_of(main: LineString, auxiliary: LineString) -> "Floats":
-    """The closed ring main, cap, auxiliary backwards, cap."""
+    """Return the closed ring main, cap, auxiliary backwards, cap."""
     has_z = main.has_z and auxiliary.has_z
     m = shapely.get_coordinates(main, include_z=has_z)
     a = shapely.get_coordinates(auxiliary, include_z=has_z)[::-1]
@@ -283,24 +288,48 @@ def check_ring(main: LineString, auxiliary: LineString, ring: "Floats") -> None:
         raise InvalidAreaError(msg)
 
 
-def check_division(main: LineString, auxiliary: LineString, ring: "Floats", area: Polygon) -> None:
-    """Refuse curves that do not divide the boundary of ``area``, with the rule that is broken."""
+def check_division(
+    main: LineString, ways: tuple[LineString, LineString], area: Polygon
+) -> LineString:
+    """Return the way of the auxiliary curve that divides the boundary of ``area`` with main.
+
+    Raises
+    ------
+    InvalidAreaError
+        If there is none, with the rule that is broken.
+    """
     shell = shapely.LineString(area.exterior.coords)
     near = ON_BOUNDARY * float(np.hypot(*np.ptp(shapely.get_coordinates(shell), axis=0)))
-    for curve, name in ((main, "main"), (auxiliary, "auxiliary")):
-        points = shapely.get_coordinates(curve.segmentize(curve.length / BOUNDARY_SAMPLES))
-        off = shapely.distance(shapely.points(points), shell)
-        worst = int(np.argmax(off))
-        if off[worst] > near:
-            msg = f"{name} leaves the outer boundary of area at {place_text(points[worst])}"
+    for curve, name in ((main, "main"), (ways[0], "auxiliary")):
+        place = far_from(curve, shell, near)
+        if place is not None:
+            msg = f"{name} leaves the outer boundary of area at {place_text(place)}"
             raise InvalidAreaError(msg)
-    check_ring(main, auxiliary, ring)
-    shell_points = shapely.get_coordinates(shell)
-    off = shapely.distance(shapely.points(shell_points), shapely.LineString(ring))
+    for auxiliary in ways:
+        ring = shapely.LineString(ring_of(main, auxiliary))
+        if far_from(ring, shell, near) is None and far_from(shell, ring, near) is None:
+            check_ring(main, auxiliary, ring_of(main, auxiliary))
+            return auxiliary
+    ring = shapely.LineString(ring_of(main, ways[0]))
+    check_ring(main, ways[0], ring_of(main, ways[0]))
+    place = far_from(shell, ring, near)
+    if place is None:
+        place = far_from(ring, shell, near)
+    msg = (
+        f"the boundary of area at {place_text(place)} belongs to neither curve and to no "
+        "straight cap"
+    )
+    raise InvalidAreaError(msg)
+
+
+def far_from(line: LineString, other: LineString, near: float) -> "Floats | None":
+    """Return the vertex or middle of a segment of a line that is farthest from another line.
+
+    None if even that is not farther than ``near``.
+    """
+    vertices = shapely.get_coordinates(line)
+    points = np.concatenate([vertices, (vertices[1:] + vertices[:-1]) / 2.0])
+    shapely.prepare(other)
+    off = shapely.distance(shapely.points(points), other)
     worst = int(np.argmax(off))
-    if off[worst] > near:
-        msg = (
-            f"the boundary of area at {place_text(shell_points[worst])} belongs to neither curve "
-            "and to no straight cap"
-        )
-        raise InvalidAreaError(msg)
+    return points[worst] if off[worst] > near else None

@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -23,14 +24,17 @@ from midrib.repair import repaired
 from midrib.strip import PLANE
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from midrib.types import Floats
 
-    Areas = np.ndarray[tuple[int], np.dtype[np.object_]]
+    Areas = NDArray[np.object_]
 
 __all__ = ["Problem", "collapse"]
 
 
-class Problem(NamedTuple):
+@dataclass(frozen=True)
+class Problem:
     """What there is to say about an area: it was refused, repaired, or its line lost loops."""
 
     index: Any  # position of the area, or its label in a GeoSeries
@@ -58,7 +62,7 @@ def collapse(
         One of ``midrib.methods()``.
     on_error : {"raise", "report"}, default "raise"
         ``"report"`` returns ``(lines, problems)``: an area that is refused gives None and a row of
-        ``problems`` that says why; areas that were repaired and lines that lost loops get a row too.
+        ``problems`` that says why; repaired areas and lines that lost loops get a row too.
     along : LineString or array_like of them, optional
         Directional polylines, one for each area or None: the main curve is the part of the
         boundary beside it, see ``midrib.split``.
@@ -183,7 +187,7 @@ def guides(along: Any, count: int) -> "Areas | None":
 class Part(NamedTuple):
     """One polygon to collapse: the area it is of, its number there, itself."""
 
-    index: int
+    area: int
     number: int
     polygon: Polygon
 
@@ -198,7 +202,7 @@ def collapse_all(
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
     for part, line in zip(parts, lines_of(parts, find, along, geographic, log), strict=True):
         if line is not None:
-            found[part.index].append(line)
+            found[part.area].append(line)
     for i, pieces in enumerate(found):
         if pieces:
             is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
@@ -207,7 +211,7 @@ def collapse_all(
 
 
 def empty_like(area: Any) -> LineString | None:
-    """The line of an area that has none yet: an empty one for an empty area, else None."""
+    """Return the line of an area that has none yet: an empty one for an empty area, else None."""
     return LineString() if isinstance(area, BaseGeometry) and area.is_empty else None
 
 
@@ -238,7 +242,7 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
 def lines_of(
     parts: list[Part], find: Finder, along: "Areas | None", geographic: bool, log: Log
 ) -> list[LineString | None]:
-    """The line of each part, None where it was refused."""
+    """Return the line of each part, None where it was refused."""
     lines: list[LineString | None] = [None] * len(parts)
     if not parts:
         return lines
@@ -248,15 +252,15 @@ def lines_of(
     bounds = shapely.bounds(polygons) if geographic else None
     flat: list[tuple[int, Floats]] = []
     for i, part in enumerate(parts):
-        guide = None if along is None else along[part.index]
+        guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
             result = find(*packed.rings(i), guide, scale)
         except MidribError as error:
-            log.refuse(part.index, part.number, error)
+            log.refuse(part.area, part.number, error)
             continue
         if result.loops:
-            log.note(part.index, part.number, "loops cut", f"{result.loops} loops cut")
+            log.note(part.area, part.number, "loops cut", f"{result.loops} loops cut")
         if result.height is None:
             flat.append((i, result.points))
         else:

@@ -11,7 +11,7 @@
 Arrays only: ``minimal_radii`` and ``collapse`` shape the answer.
 """
 
-from typing import Literal, NamedTuple, TypeAlias, cast
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,7 @@ from midrib.kernels.boxtree import GRAZE
 from midrib.kernels.loops import cut_loops
 from midrib.kernels.paths import join_points
 from midrib.kernels.visibility import nearest_visible, sees_within
-from midrib.layout import Layout
+from midrib.layout import EndPoint, Layout
 from midrib.types import Bools, Floats, Ints
 
 __all__ = [
@@ -45,6 +45,7 @@ JUMP_SLACK = 2.0**-20
 # it gave the most centred lines on rivers, roads, verges and slopes.
 LOPSIDED = 1.5
 RULES = ("main", "caps", "radii")
+PER_RADIUS = ("station", "on_main", "on_auxiliary", "arc", "length", "kind", "side", "vertex")
 
 
 class Radii(NamedTuple):
@@ -60,6 +61,11 @@ class Radii(NamedTuple):
     side: Ints  # (k,) boundary side of P
     vertex: Ints  # (k,) mesh vertex of P, or -1
     bays: Floats  # (b,) stations left out because they lie in bays
+
+    def chosen(self, rows: Ints | Bools) -> "Radii":
+        """Return some of the radii, of the same stations."""
+        columns: dict[str, Any] = {name: getattr(self, name)[rows] for name in PER_RADIUS}
+        return self._replace(**columns)
 
 
 class Path(NamedTuple):
@@ -86,8 +92,7 @@ def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Ra
     if clearance in ("station", "proportional") and (layout.shares_start or layout.shares_end):
         crowded = np.flatnonzero(crowd_the_ends(layout, radii, clearance, low, high))
         if crowded.size:
-            some = Stations(*(column[crowded] for column in stations))
-            again = look_from(layout, some, low[crowded], high[crowded])
+            again = look_from(layout, stations.chosen(crowded), low[crowded], high[crowded])
             radii = replaced(radii, again, crowded)
     return without_bays(layout, radii, crowded) if rule.skip_bays else radii
 
@@ -115,14 +120,13 @@ def look_from(layout: Layout, stations: Stations, low: Floats, high: Floats) -> 
 
 def replaced(radii: Radii, again: Radii, crowded: Ints) -> Radii:
     """Radii with those of the crowded stations drawn again."""
-    keep = ~np.isin(radii.station, crowded)
-    station = np.concatenate([radii.station[keep], crowded[again.station]])
-    order = np.argsort(station, kind="stable")
-    columns = (
-        np.concatenate([old[keep], new])[order]
-        for old, new in zip(radii[2:-1], again[2:-1], strict=True)
-    )
-    return Radii(radii.stations, station[order], *columns, radii.bays)
+    kept = radii.chosen(~np.isin(radii.station, crowded))
+    again = again._replace(station=crowded[again.station])
+    both: dict[str, Any] = {
+        name: np.concatenate([getattr(kept, name), getattr(again, name)]) for name in PER_RADIUS
+    }
+    merged = radii._replace(**both)
+    return merged.chosen(np.argsort(merged.station, kind="stable"))
 
 
 def without_bays(layout: Layout, radii: Radii, crowded: Ints) -> Radii:
@@ -147,16 +151,18 @@ def without_bays(layout: Layout, radii: Radii, crowded: Ints) -> Radii:
         x, y, auxiliary.side[segment], vertex, radii.length / LOPSIDED, *layout.scale,
     )  # fmt: skip
     is_lopsided &= ~np.isin(radii.station, crowded)
-    if not is_lopsided.any() or is_lopsided.all():
+    if not is_lopsided.any():
         return radii
     in_bay = np.unique(radii.station[is_lopsided])
-    new_row = np.delete(np.arange(radii.stations.size), in_bay)
-    keep = ~np.isin(radii.station, in_bay)
-    if not keep.any():
+    kept = radii.chosen(~np.isin(radii.station, in_bay))
+    if kept.station.size == 0:
         return radii
-    kept = (column[keep] for column in radii[2:-1])
-    station = np.searchsorted(new_row, radii.station[keep])
-    return Radii(radii.stations[new_row], station, *kept, radii.stations[in_bay])
+    new_row = np.delete(np.arange(radii.stations.size), in_bay)
+    return kept._replace(
+        stations=radii.stations[new_row],
+        station=np.searchsorted(new_row, kept.station),
+        bays=radii.stations[in_bay],
+    )
 
 
 def crowd_the_ends(
@@ -240,28 +246,21 @@ def check_ends(ends: EndRule, clearance: EndClearance) -> None:
         raise ParameterError(msg)
 
 
-class EndPoint(NamedTuple):
-    """A point for one end of the chain, and where on the boundary the search for it begins."""
-
-    point: tuple[float, float]
-    origin: tuple[float, float]
-    side: int
-    vertex: int
-
-
 def end_points(layout: Layout, ends: EndRule) -> list[EndPoint]:
-    """The chain's two end points by rules 1 to 4 of the paper's section 4, or none."""
+    """Return the chain's two end points by rules 1 to 4 of the paper's section 4, or none."""
     main = layout.main
     if ends is None:
         return []
     if ends == "main":
         return [vertex_end(layout, main.vertex[0]), vertex_end(layout, main.vertex[-1])]
     if ends == "caps":
-        return [vertex_end(layout, v) for v in layout.middle]
+        return list(layout.middle)
     if ends == "radii":
         return [radius_end(layout, 0), radius_end(layout, -1)]
-    pair = [coordinates_of(point) for point in cast("tuple[object, object]", ends)]
-    return [EndPoint(p, p, int(main.side[i]), -1) for p, i in zip(pair, (0, -1), strict=True)]
+    pair = [coordinates_of(point) for point in ends]
+    return [
+        EndPoint(p, p, int(main.side[i]), -1, np.nan) for p, i in zip(pair, (0, -1), strict=True)
+    ]
 
 
 def coordinates_of(point: object) -> tuple[float, float]:
@@ -274,9 +273,10 @@ def coordinates_of(point: object) -> tuple[float, float]:
 
 
 def vertex_end(layout: Layout, v: int) -> EndPoint:
-    """A mesh vertex as an end point."""
+    """Return a mesh vertex as an end point."""
     point = float(layout.mesh.x[v]), float(layout.mesh.y[v])
-    return EndPoint(point, point, int(layout.mesh.door[v]), int(v))
+    height = np.nan if layout.height is None else float(layout.height[v])
+    return EndPoint(point, point, int(layout.mesh.door[v]), int(v), height)
 
 
 def radius_end(layout: Layout, which: int) -> EndPoint:
@@ -310,7 +310,7 @@ def radius_end(layout: Layout, which: int) -> EndPoint:
         )
         raise ParameterError(msg)
     middle = float((x + found[0, 0]) / 2.0), float((y + found[0, 1]) / 2.0)
-    return EndPoint(middle, (x, y), int(side), int(v))
+    return EndPoint(middle, (x, y), int(side), int(v), np.nan)
 
 
 class Beads(NamedTuple):
@@ -323,7 +323,7 @@ class Beads(NamedTuple):
 
 
 def string_beads(radii: Radii, ends: list[EndPoint]) -> Beads:
-    """The middles of the radii between the end points."""
+    """Return the middles of the radii between the end points."""
     middles = (radii.on_main + radii.on_auxiliary) / 2.0
     if not ends:
         return Beads(middles, radii.on_main, radii.side, radii.vertex)
@@ -354,7 +354,7 @@ def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
             break
         loops += found
         points, source = join_again(layout, beads, cut, row, source)
-    return Path(points, source, height_along(layout, radii, points, source, bool(ends)), loops)
+    return Path(points, source, height_along(layout, radii, points, source, ends), loops)
 
 
 def join_beads(layout: Layout, beads: Beads) -> tuple[Floats, Ints]:
@@ -390,10 +390,13 @@ def refuse_ends_outside(ends: list[EndPoint], source: Ints, count: int) -> None:
 
 
 def height_along(
-    layout: Layout, radii: Radii, points: Floats, source: Ints, has_ends: bool
+    layout: Layout, radii: Radii, points: Floats, source: Ints, ends: list[EndPoint]
 ) -> Floats | None:
-    """Z of every point of the path, None if the area has none: of a middle, the mean of the two
-    curves' heights; of a mesh vertex, its own; of a crossing, in between along the path."""
+    """Z of every point of the path, None if the area has none.
+
+    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing,
+    in between along the path.
+    """
     height = layout.height
     if height is None:
         return None
@@ -401,8 +404,8 @@ def height_along(
     on_main = np.interp(radii.stations[radii.station], main.arc, height[main.vertex])
     on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
     beads = (on_main + on_auxiliary) / 2.0
-    if has_ends:
-        beads = np.concatenate([[height[layout.middle[0]]], beads, [height[layout.middle[1]]]])
+    if ends:
+        beads = np.concatenate([[ends[0].height], beads, [ends[1].height]])
     z = np.where(
         source < 0,
         height[np.where(source < 0, -1 - source, 0)],

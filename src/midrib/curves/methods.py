@@ -1,6 +1,5 @@
 """The methods that collapse areas, in one registry."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -11,6 +10,8 @@ from midrib.layout import Scale, boundary_of
 from midrib.strip import divide
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from shapely import LineString
 
     from midrib.kernels.rings import Rings
@@ -83,7 +84,7 @@ METHODS = {
 
 
 def methods() -> list[Method]:
-    """What ``collapse`` can do: name, source and capabilities of every method.
+    """Return what ``collapse`` can do: name, source and capabilities of every method.
 
     Examples
     --------
@@ -94,7 +95,7 @@ def methods() -> list[Method]:
 
 
 def finder_of(name: str, **options: Any) -> "Finder":
-    """The finder of a method, with its options checked.
+    """Return the finder of a method, with its options checked.
 
     Raises
     ------

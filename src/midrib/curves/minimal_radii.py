@@ -136,10 +136,10 @@ def minimal_radii(
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
-        Stations to drop. ``"bays"``: those in bays and side arms of the main curve, told by a Q that
-        sees the main curve nearer than P by a factor of 1.5. Others: by index; by ``slice`` of indices, or of arc lengths where its bounds are
-        floats; those whose P lies in a Polygon; those for which a function of stations (n,) and
-        points (n, 2) returns True.
+        Stations to drop. ``"bays"``: those in bays and side arms of the main curve, where Q sees
+        the main curve nearer than P by a factor of 1.5. Others: by index; by ``slice`` of
+        indices, or of arc lengths where its bounds are floats; those whose P lies in a Polygon;
+        those for which a function of stations (n,) and points (n, 2) returns True.
     ends : {"main", "caps", "radii"}, pair of points or None, default "main"
         How the curve ends (section 4): at the ends of the main curve; halfway between
         corresponding ends of the two curves; at the middles of the radii at the main curve's ends

@@ -39,6 +39,10 @@ class Stations(NamedTuple):
     side: Ints  # (n,) boundary side
     vertex: Ints  # (n,) mesh vertex, or -1
 
+    def chosen(self, rows: Ints | Bools) -> "Stations":
+        """Return some of the stations."""
+        return Stations(self.arc[rows], self.point[rows], self.side[rows], self.vertex[rows])
+
 
 class StationRule:
     """Where radii are drawn: any mixture of an interval, the vertices and given stations.
@@ -87,7 +91,9 @@ class StationRule:
         if percent is not None and percent > 100:
             msg = f"percent is {percent!r}, expected at most 100"
             raise ParameterError(msg)
-        own = None if stations is None else np.unique(np.asarray(stations, dtype=np.float64))
+        own: Floats | None = None
+        if stations is not None:
+            own = np.unique(np.asarray(stations, dtype=np.float64))
         if own is not None and (own.ndim != 1 or not np.isfinite(own).all()):
             msg = "stations have a value that is not finite, expected arc lengths"
             raise ParameterError(msg)
@@ -115,8 +121,7 @@ class StationRule:
         )
         placed = Stations(arc, points, main.side[segment], vertex)
         if self.skip:
-            keep = self.kept(arc, points)
-            placed = Stations(*(column[keep] for column in placed))
+            placed = placed.chosen(self.kept(arc, points))
         if placed.arc.size == 0:
             msg = "no station is left on the main curve, expected at least one"
             raise ParameterError(msg)
@@ -125,7 +130,7 @@ class StationRule:
     def own(self, length: float, half_width: float) -> Floats:
         """Stations by interval and those given, on a curve of the given length."""
         interval = self.interval(length, half_width)
-        by_interval = np.empty(0)
+        by_interval: Floats = np.empty(0)
         if interval is not None:
             n = np.floor(length / interval * (1.0 + SAME_STATION))
             if n > MOST_STATIONS:
@@ -150,10 +155,10 @@ class StationRule:
         if self.count is not None:
             return length / int(self.count)
         if self.percent is not None:
-            return length * (self.percent / 100.0)
+            return float(length * (self.percent / 100.0))
         if self.stations is not None:
             return None
-        return length / max(np.ceil(length / half_width), LEAST_COUNT)
+        return float(length / max(np.ceil(length / half_width), LEAST_COUNT))
 
     def kept(self, stations: Floats, points: Floats) -> Bools:
         """Which stations ``skip`` leaves, bays apart: those take the radii to tell."""

@@ -36,8 +36,10 @@ def nearest_share(
     kind_first: int,
     kind_last: int,
 ) -> tuple[float, int]:
-    """Where on the segment a b (0 at a, 1 at b) the nearest point to p lies, between two shares;
-    NaN if they leave nothing. Also its kind: FOOT, or that of the share it stops at."""
+    """Where on the segment a b (0 at a, 1 at b) the nearest point to p lies, between two shares.
+
+    NaN if they leave nothing. Also its kind: FOOT, or that of the share it stops at.
+    """
     if first > last:
         return np.nan, FOOT
     dx, dy = bx - ax, by - ay
@@ -101,8 +103,10 @@ def nearest_on_chain(
     kinds: Ints,
     squares: Floats,
 ) -> int:
-    """Collect the nearest points on the segments of a chain that are within ``reach`` and, when
-    found, not farther than the nearest so far by more than ``slack`` (a length).
+    """Collect the nearest points on the segments of a chain.
+
+    Those within ``reach`` that are, when found, not farther than the nearest so far by more than
+    ``slack`` (a length).
 
     Points outside the arc lengths low..high do not count. The last four arrays take segment, share
     of it, kind and squared distance; return how many there are, -1 if they do not have the room.

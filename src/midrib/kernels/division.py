@@ -10,7 +10,7 @@ cap  |                       |  cap         The shell turns left, so the lower c
 import numpy as np
 
 from midrib.kernels.jit import njit
-from midrib.kernels.mesh import Mesh, split_side
+from midrib.kernels.mesh import Mesh, pull_inside, split_side
 from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
@@ -129,7 +129,7 @@ def divide_shell(
     rule: int,
     scale_x: float,
     scale_y: float,
-) -> tuple[bool, Mesh, Floats, Ints, Ints, Ints, Floats, Ints, Ints, Floats, Ints]:
+) -> tuple[bool, Mesh, Floats, Floats, Ints, Ints, Ints, Floats, Ints, Ints, Floats, Ints, float]:
     """Divide a shell at two ends.
 
     Parameters
@@ -146,36 +146,40 @@ def divide_shell(
     Returns
     -------
     is_divided : False if the ends are one point
-    mesh, height : with the middles of caps and the ends inside segments as vertices
-    middle : (2,) the mesh vertices in the middle of the ends
+    mesh, height : with the ends inside segments as vertices
+    middle : (2, 3) x, y and Z of the middles of the ends
+    middle_at : (2, 2) the boundary side each is on, and the mesh vertex it is or -1
     vertex, side, arc : of the main curve, then of the auxiliary one
     target : for each half-edge the auxiliary segment on it, or -1
     width : area between the curves over their mean length
     """
-    ends, at = places.copy(), np.empty(2, np.intp)
-    share = shares.copy()
-    for i in range(2):
-        at[i] = ends[i, 0]
-        if ends[i, 0] != ends[i, 1]:
-            at[i], share[i] = middle_of_cap(mesh, order, ends[i, 0], ends[i, 1], scale_x, scale_y)
+    ends = places.copy()
     # The later place first, so that inserting one does not move the other.
-    first = 0 if (at[0] > at[1] or (at[0] == at[1] and share[0] > share[1])) else 1
-    middle = np.empty(2, np.intp)
-    for i in (first, 1 - first):
-        place, size = at[i], order.size
-        is_point = ends[i, 0] == ends[i, 1]
-        if share[i] > 0.0:
+    is_later = places[0, 0] > places[1, 0] or (
+        places[0, 0] == places[1, 0] and shares[0] > shares[1]
+    )
+    for i in (0, 1) if is_later else (1, 0):
+        size = order.size
+        if shares[i] > 0.0:
             mesh, order, side, height, place = place_point(
-                mesh, order, side, height, at[i], share[i]
+                mesh, order, side, height, ends[i, 0], shares[i]
             )
-        if order.size > size:
-            for j in range(2):
-                for k in range(2):
-                    if ends[j, k] >= place:
-                        ends[j, k] += 1
-        if is_point:
+            if order.size > size:
+                for j in range(2):
+                    for k in range(2):
+                        if ends[j, k] >= place:
+                            ends[j, k] += 1
             ends[i, 0] = ends[i, 1] = place
-        middle[i] = order[place]
+    middle, middle_at = np.full((2, 3), np.nan), np.empty((2, 2), np.intp)
+    for i in range(2):
+        k, share = middle_of_cap(mesh, order, ends[i, 0], ends[i, 1], scale_x, scale_y)
+        a, b = order[k], order[(k + 1) % order.size]
+        middle_at[i, 0], middle_at[i, 1] = side[k], -1 if share > 0.0 else a
+        x = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
+        y = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
+        middle[i, 0], middle[i, 1], _ = pull_inside(mesh, side[k] // 3, x, y)
+        if height.size > 0:
+            middle[i, 2] = height[a] + share * (height[b] - height[a])
     is_divided = ends[0, 1] != ends[1, 0] and ends[1, 1] != ends[0, 0]
     vertex_w, side_w, arc_w = chain(
         mesh, order, side, ends[0, 1], ends[1, 0], False, scale_x, scale_y
@@ -201,6 +205,7 @@ def divide_shell(
         mesh,
         height,
         middle,
+        middle_at,
         vertex_w,
         side_w,
         arc_w,

@@ -1,9 +1,9 @@
-"""The two ends of an area: where a person would say that it begins and ends.
+r"""The two ends of an area: where a person would say that it begins and ends.
 
 1. *Far pair*: the two shell vertices with the longest way between them through the triangles.
 2. *Shape of an end*, around each of them:
 
-     CAP  p------q   a straight run that both banks meet at 45 to 135 degrees: the end is its
+     CAP  p------q   a straight run that both banks meet at 35 to 145 degrees: the end is its
           |      |   middle, and the run belongs to neither curve
      TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
@@ -24,7 +24,7 @@ __all__ = ["CAP", "POINT", "TIP", "far_pair", "propose_ends", "shape_of_end"]
 
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
-LEAST_CORNER = np.cos(np.pi / 4)  # banks meet a cap at 45 to 135 degrees
+LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
 LEAST_CAP = 0.25  # of the mean width
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
@@ -50,7 +50,7 @@ def sweep(
     way: Floats,
     frontier: Ints,
 ) -> int:
-    """The shell vertex with the longest way from ``source``.
+    """Return the shell vertex with the longest way from ``source``.
 
     A way goes from middle of side to middle of side, or along vertices where that is shorter: the
     middles alone would go into a long side's triangle and back to reach a vertex next to it.
@@ -132,14 +132,14 @@ def far_pair(
 
 @njit()
 def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float, int, float]:
-    """The point of a closed ring at arc length s (taken round), its segment and the share of it.
+    """Return the point of a closed ring at arc length s, its segment and the share of it.
 
     ``arc`` has one entry more than the ring: the perimeter.
     """
     n = x.size
     perimeter = arc[n]
     s -= np.floor(s / perimeter) * perimeter
-    k = min(max(np.searchsorted(arc, s, side="right") - 1, 0), n - 1)
+    k = min(max(int(np.searchsorted(arc, s, side="right")) - 1, 0), n - 1)
     length = arc[k + 1] - arc[k]
     share = (s - arc[k]) / length if length > 0.0 else 0.0
     j = k + 1 if k + 1 < n else 0
@@ -148,7 +148,7 @@ def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float,
 
 @njit()
 def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
-    """The last vertex of the straight run that leaves vertex ``start`` in direction ``step``."""
+    """Return the last vertex of the straight run from vertex ``start`` in direction ``step``."""
     n = x.size
     end = (start + step) % n
     while True:
@@ -190,8 +190,11 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
 
 @njit()
 def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tuple[int, int]:
-    """Corners of the cap at a vertex, the shorter one of two, or else of the nearest cap within
-    a width of it along the shell; -1 if there is none. Teeth of the banks are too short for one."""
+    """Return the corners of the cap at a vertex, -1 if there is none.
+
+    Of two caps at the vertex the shorter one; else the nearest within a width of it along the
+    shell. Teeth of the banks are too short for a cap.
+    """
     least = LEAST_CAP * width
     # The vertex may lie inside a straight run; a part of a run is no cap.
     backward, forward = vertex, vertex
@@ -244,7 +247,7 @@ def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
 def shape_of_end(
     x: Floats, y: Floats, arc: Floats, vertex: int, width: float
 ) -> tuple[int, int, int, float]:
-    """What the end of an area looks like around one of its far vertices.
+    """Return what the end of an area looks like around one of its far vertices.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 __all__ = ["cache_folder", "njit"]
 
@@ -39,11 +39,14 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(cache_folder()))
 
 import numba as nb  # noqa: E402  # the folder above must be known to Numba when it is imported
 
+Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
-def njit(*, entry: bool = False) -> Callable[..., Any]:
+
+def njit(*, entry: bool = False) -> Callable[[Kernel], Kernel]:
     """Compile a kernel; an ``entry`` is called from Python and kept on disk.
 
     Kernels that only other kernels call are compiled into their callers, and LLVM inlines the
     small ones. Arithmetic stays IEEE (no ``fastmath``): the bounds of the predicates need it.
     """
-    return nb.njit(cache=entry, nogil=entry, error_model="numpy")  # type: ignore[no-any-return]
+    compiled: Callable[[Kernel], Kernel] = nb.njit(cache=entry, nogil=entry, error_model="numpy")
+    return compiled

@@ -1,11 +1,12 @@
-"""Loops of a line: where it meets itself, and the line without them.
+r"""Loops of a line: where it meets itself, and the line without them.
 
         ___
        /   \\        the path i .. j+1 meets itself at x; what lies between
        \\   /        is cut out: i, x, j+1
     i ---x--- j+1
 
-Pairs of segments are found by sorting their ranges along the longer axis: near-linear for lines that run along.
+Pairs of segments are found by sorting their ranges along the longer axis: near-linear for lines
+that run along.
 """
 
 import numpy as np
@@ -19,7 +20,7 @@ __all__ = ["cut_loops"]
 
 @njit()
 def meet(path: Floats, i: int, j: int) -> bool:
-    """Whether segments i and j, i + 1 < j, have a point in common; for neighbours: more than one."""
+    """Whether segments i < j have a point in common; if they are neighbours, more than one."""
     ax, ay, bx, by = path[i, 0], path[i, 1], path[i + 1, 0], path[i + 1, 1]
     cx, cy, dx, dy = path[j, 0], path[j, 1], path[j + 1, 0], path[j + 1, 1]
     if max(ay, by) < min(cy, dy) or max(cy, dy) < min(ay, by):
@@ -72,7 +73,10 @@ def last_meetings(path: Floats) -> Ints:
 
 @njit()
 def meeting_point(path: Floats, i: int, j: int) -> tuple[float, float]:
-    """A point that segments i and j have in common, up to rounding; an end of one where one is."""
+    """Return a point that segments i and j have in common, up to rounding.
+
+    An end of one where one is.
+    """
     ax, ay, bx, by = path[i, 0], path[i, 1], path[i + 1, 0], path[i + 1, 1]
     cx, cy, dx, dy = path[j, 0], path[j, 1], path[j + 1, 0], path[j + 1, 1]
     at_a = (dx - cx) * (ay - cy) - (dy - cy) * (ax - cx)
@@ -88,7 +92,7 @@ def meeting_point(path: Floats, i: int, j: int) -> tuple[float, float]:
 
 @njit(entry=True)
 def cut_loops(path: Floats) -> tuple[Floats, Ints, int]:
-    """The path without its loops.
+    """Return the path without its loops.
 
     Parameters
     ----------

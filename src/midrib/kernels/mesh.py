@@ -1,4 +1,4 @@
-"""The mesh of an area: its triangles, and which side of which triangle lies on which ring segment.
+r"""The mesh of an area: its triangles, and which side of which triangle lies on which ring segment.
 
 Half-edges are those of ``triangulation``. A *boundary side* is a half-edge without a twin; it runs
 with its ring, so the area lies on its left. The interior triangles around a vertex form one *fan*
@@ -19,7 +19,15 @@ from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side, triangulate_rings
 from midrib.types import Floats, Ints
 
-__all__ = ["Mesh", "Triangulated", "contains", "mesh_rings", "pull_inside", "split_side"]
+__all__ = [
+    "Mesh",
+    "Triangulated",
+    "contains",
+    "is_beyond",
+    "mesh_rings",
+    "pull_inside",
+    "split_side",
+]
 
 ROUNDING_REACH = 2.0**-48  # of the coordinates: 16 units in the last place
 PULLS = 48
@@ -72,19 +80,28 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
 
 
 @njit()
+def is_beyond(mesh: Mesh, e: int, px: float, py: float) -> bool:
+    """Whether p lies beyond side e, seen from its triangle."""
+    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    return orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], px, py) < 0.0
+
+
+@njit()
 def contains(mesh: Mesh, t: int, px: float, py: float) -> bool:
     """Whether the closed triangle t holds p, exactly."""
-    for e in range(3 * t, 3 * t + 3):
-        a, b = mesh.tri[e], mesh.tri[next_side(e)]
-        if orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], px, py) < 0.0:
-            return False
-    return True
+    return not (
+        is_beyond(mesh, 3 * t, px, py)
+        or is_beyond(mesh, 3 * t + 1, px, py)
+        or is_beyond(mesh, 3 * t + 2, px, py)
+    )
 
 
 @njit()
 def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float, bool]:
-    """Return p, or the nearest of a series of points towards the middle of triangle t that is
-    exactly inside it, and whether there is one: only rounding is made good."""
+    """Return p, or a point next to it that is exactly inside triangle t, and whether there is one.
+
+    The first of a series of points towards the middle of t; only rounding is made good.
+    """
     if contains(mesh, t, px, py):
         return px, py, True
     a, b, c = mesh.tri[3 * t], mesh.tri[3 * t + 1], mesh.tri[3 * t + 2]

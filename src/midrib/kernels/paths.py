@@ -1,4 +1,4 @@
-"""Shortest paths inside an area: the join between consecutive points of a curve.
+r"""Shortest paths inside an area: the join between consecutive points of a curve.
 
 Most joins are straight: a walk from p to q through the triangles on the way proves it. Where the
 walk runs into the boundary, a search finds the *sleeve*, the triangles from p to q, and the
@@ -19,7 +19,7 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
-from midrib.kernels.mesh import Mesh, contains, pull_inside
+from midrib.kernels.mesh import Mesh, contains, is_beyond, pull_inside
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
@@ -40,8 +40,7 @@ def walk(mesh: Mesh, t: int, px: float, py: float, qx: float, qy: float) -> tupl
         for e in range(3 * t, 3 * t + 3):
             if e == came_from:
                 continue
-            a, b = mesh.tri[e], mesh.tri[next_side(e)]
-            if orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], qx, qy) < 0.0:
+            if is_beyond(mesh, e, qx, qy):
                 if ahead < 0:
                     ahead = e
                 else:
@@ -192,7 +191,7 @@ def pull_tight(mesh: Mesh, sleeve: Ints, px: float, py: float, qx: float, qy: fl
 
 @njit()
 def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
-    """The triangle around vertex v through which the ray from v to q leaves; -1 if none."""
+    """Return the triangle around vertex v through which the ray from v to q leaves; -1 if none."""
     door = mesh.door[v]
     while door >= 0:
         e = door
@@ -210,7 +209,10 @@ def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
 
 @njit()
 def nearest_triangle(mesh: Mesh, qx: float, qy: float) -> tuple[int, float, float]:
-    """The triangle that q, outside by rounding, has to move least into; -1 if q is farther out."""
+    """Return the triangle that q, outside by rounding, has to move least into.
+
+    -1 if q is farther out.
+    """
     best, best_x, best_y, least = -1, qx, qy, np.inf
     for t in range(mesh.tri.size // 3):
         x, y, is_inside = pull_inside(mesh, t, qx, qy)
@@ -237,11 +239,14 @@ def locate_from(
     key: Floats,
     heap: Ints,
 ) -> tuple[int, float, float]:
-    """The triangle that holds q, seen from p on ``side`` (or at ``vertex``); q may be pulled
-    inside by rounding's width, in triangle ``near`` for one. -1 if q is farther outside."""
+    """Return the triangle that holds q, seen from p on ``side`` (or at ``vertex``).
+
+    Q may be pulled inside by rounding's width, in triangle ``near`` for one. -1 if q is farther
+    outside.
+    """
     t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
     end = side // 3
-    if t >= 0:
+    if t >= 0 and (vertex >= 0 or not is_beyond(mesh, side, qx, qy)):
         end, obstacle = walk(mesh, t, px, py, qx, qy)
         if obstacle == -1:
             return end, qx, qy

@@ -14,8 +14,11 @@ __all__ = ["Rings", "normalise_rings"]
 
 
 class Rings(NamedTuple):
-    """Vertices of all rings; vertex k is followed by vertex ring_next[k]; the first n_shell are the
-    shell's; origin[k] is the row of the input that vertex k came from."""
+    """Vertices of all rings; vertex k is followed by vertex ring_next[k].
+
+    The first n_shell are the shell's; origin[k] is the row of the input that vertex k came
+    from.
+    """
 
     x: Floats
     y: Floats

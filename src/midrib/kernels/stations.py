@@ -10,8 +10,10 @@ __all__ = ["place_stations"]
 
 @njit()
 def merge(own: Floats, arc: Floats, tolerance: float) -> Floats:
-    """Merge ascending stations with the vertices' arc lengths; a station nearer to a vertex than
-    ``tolerance`` is that vertex."""
+    """Merge ascending stations with the vertices' arc lengths.
+
+    A station nearer to a vertex than ``tolerance`` is that vertex.
+    """
     stations = np.empty(own.size + arc.size)
     count, i = 0, 0
     for k in range(arc.size):

@@ -1,4 +1,4 @@
-"""Constrained Delaunay triangulation of the inside of rings.
+r"""Constrained Delaunay triangulation of the inside of rings.
 
 Vertices go in one at a time, each inserted near a ring neighbour that is already there; then the
 ring segments are forced in; then the triangles to the left of a segment are kept.
@@ -86,7 +86,7 @@ def flip(e: int, tri: Ints, twin: Ints, segment: Ints, out: Ints) -> None:
 
 @njit()
 def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: Ints) -> int:
-    """A half-edge of the triangle that holds p: the side p lies on, or the first one.
+    """Return a half-edge of the triangle that holds p: the side p lies on, or the first one.
 
     The walk leaves each triangle through a side that has p beyond it; the caller starts it near
     p. Which side is tried first is drawn anew in every triangle: in a fixed order the walk can
@@ -158,8 +158,11 @@ def insert_vertex(
     segment: Ints,
     out: Ints,
 ) -> tuple[int, int]:
-    """Insert p, walking from the half-edge ``near``; return the number of triangles and the
-    vertex already at that place, or p itself (-1: the walk did not end)."""
+    """Insert p, walking from the half-edge ``near``.
+
+    Return the number of triangles and the vertex already at that place, or p itself (-1: the
+    walk did not end).
+    """
     e = locate(x[p], y[p], near, x, y, tri, twin)
     if e < 0:
         return count, -1
@@ -237,7 +240,7 @@ def insert_all(
 
 @njit()
 def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
-    """The half-edge from a to b, or -1."""
+    """Return the half-edge from a to b, or -1."""
     start = out[a]
     e = start
     while True:
@@ -262,8 +265,10 @@ def mark(e: int, k: int, twin: Ints, segment: Ints) -> bool:
 def first_crossing(
     a: int, b: int, x: Floats, y: Floats, tri: Ints, twin: Ints, out: Ints
 ) -> tuple[int, int]:
-    """Where the segment a-b leaves the triangles around a: the half-edge it crosses, or a vertex
-    on its way (-1, vertex)."""
+    """Where the segment a-b leaves the triangles around a.
+
+    The half-edge it crosses, or a vertex on its way (-1, vertex).
+    """
     start = out[a]
     e = start
     while True:
@@ -344,7 +349,7 @@ def force_segment(
         if left_turn_at_d and orient(x[d], y[d], x[v], y[v], x[c], y[c]) > 0.0:
             flip(e, tri, twin, segment, out)
             patience = 0
-            ends_meet = c == a or c == b or d == a or d == b
+            ends_meet = c in (a, b) or d in (a, b)
             side_c = orient(x[a], y[a], x[b], y[b], x[c], y[c])
             side_d = orient(x[a], y[a], x[b], y[b], x[d], y[d])
             if ends_meet or (side_c > 0.0) == (side_d > 0.0):

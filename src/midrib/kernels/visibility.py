@@ -1,4 +1,4 @@
-"""The nearest visible point: from P on the main curve to the auxiliary curve.
+r"""The nearest visible point: from P on the main curve to the auxiliary curve.
 
 The nearest point of the whole auxiliary curve, if P sees it, is the answer: a tree of boxes finds
 it and a walk along PQ proves that nothing is in the way. Where something is, P looks out of its
@@ -32,7 +32,7 @@ from midrib.kernels.boxtree import (
     nearest_share,
 )
 from midrib.kernels.jit import njit
-from midrib.kernels.mesh import Mesh
+from midrib.kernels.mesh import Mesh, is_beyond
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
@@ -140,8 +140,10 @@ def nearest_on_side(
     low: float,
     high: float,
 ) -> tuple[float, int]:
-    """Where on side e (0 at its start, 1 at its end) the nearest point to p lies that the window
-    shows and that is not outside low..high; NaN if there is none. Also its kind."""
+    """Where on side e (0 at its start, 1 at its end) the nearest point to p lies, and its kind.
+
+    Only what the window shows and what is not outside low..high counts; NaN if that is nothing.
+    """
     u, v = mesh.tri[e], mesh.tri[next_side(e)]
     ux, uy, vx, vy = mesh.x[u], mesh.y[u], mesh.x[v], mesh.y[v]
     first, last = 0.0, 1.0
@@ -220,7 +222,7 @@ def grown_ints(array: Ints, size: int) -> Ints:
 
 @njit()
 def with_room(rows: Ints, count: int) -> Ints:
-    """The table itself, or a copy twice as long where fewer than three rows are left."""
+    """Return the table itself, or a copy twice as long where fewer than three rows are left."""
     if count + 3 <= rows.shape[0]:
         return rows
     larger = np.empty((2 * rows.shape[0], 3), np.intp)
@@ -237,8 +239,10 @@ def add_window(windows: Ints, count: int, side: int, right: int, left: int) -> i
 
 @njit()
 def first_windows(mesh: Mesh, side: int, vertex: int, windows: Ints) -> tuple[Ints, int]:
-    """The sides that a point on a boundary side, or at a vertex, sees without looking through
-    another one: those of its triangle, or the rims and the outer sides of its fans."""
+    """Return the sides that a boundary point sees without looking through another one.
+
+    Of a point on a side, those of its triangle; of a vertex, the rims and outer sides of its fans.
+    """
     count = 0
     if vertex < 0:
         for e in (side, next_side(side), previous_side(side)):
@@ -290,7 +294,10 @@ def offer_of_segment(
     low: float,
     high: float,
 ) -> tuple[float, float, int]:
-    """What segment j of the curve offers: share of the way along its side, arc length, kind."""
+    """Return what segment j of the curve offers.
+
+    Share of the way along its side, arc length, kind.
+    """
     length = goal.arc[j + 1] - goal.arc[j]
     is_forward = goal.vertex[j] == mesh.tri[side]
     share_low, share_high = 0.0, 1.0
@@ -318,8 +325,10 @@ def offer_of_end(
     low: float,
     high: float,
 ) -> tuple[float, float, int]:
-    """An end of the curve can be seen where its own segment is not: at the end of a boundary side
-    next to it."""
+    """Return an end of the curve can be seen where its own segment is not.
+
+    At the end of a boundary side next to it.
+    """
     u, v = mesh.tri[side], mesh.tri[next_side(side)]
     for end, arc in ((goal.vertex[0], 0.0), (goal.vertex[-1], goal.arc[-1])):
         if arc < low or arc > high:
@@ -348,8 +357,11 @@ def look(
     bound: float,
     view: View,
 ) -> tuple[View, int]:
-    """Collect the points of the curve that are seen, and not farther than ``bound`` nor, when
-    found, than the nearest so far. Return the view, with larger tables if need be, and a count."""
+    """Look around: collect the points of the curve that are seen.
+
+    Only those not farther than ``bound`` nor, when found, than the nearest so far. Return the
+    view, with larger tables if need be, and a count.
+    """
     near, near_kind, stack = view.near, view.near_kind, view.stack
     bound = bound * bound
     count, depth = 0, 0
@@ -423,7 +435,7 @@ def sees(
     Where rounding or a vertex on the way leaves a doubt, the answer is no.
     """
     t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
-    if t < 0:
+    if t < 0 or (vertex < 0 and is_beyond(mesh, side, qx, qy)):
         return False
     _, obstacle = walk(mesh, t, x, y, qx, qy)
     return obstacle == -1 or (obstacle >= 0 and target[obstacle] == j)
@@ -443,8 +455,9 @@ def nearest_seen(
     bound: float,
     view: View,
 ) -> tuple[View, int, float]:
-    """Nearest points of a curve that one point sees: in ``view.near``, their number, and how far
-    the nearest point is at all.
+    """Nearest points of a curve that one point sees.
+
+    In ``view.near``, their number, and how far the nearest point is at all.
 
     No point farther than ``bound`` counts; ``reach`` is known to hold the nearest one (inf: not
     known). The view comes back with larger tables where it needed them.
