@@ -312,9 +312,8 @@ def check_division(
             return auxiliary
     ring = shapely.LineString(ring_of(main, ways[0]))
     check_ring(main, ways[0], ring_of(main, ways[0]))
-    place = far_from(shell, ring, near)
-    if place is None:
-        place = far_from(ring, shell, near)
+    places = [far_from(shell, ring, near), far_from(ring, shell, near)]
+    place = next(place for place in places if place is not None)
     msg = (
         f"the boundary of area at {place_text(place)} belongs to neither curve and to no "
         "straight cap"

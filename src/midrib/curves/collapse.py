@@ -160,9 +160,9 @@ def as_array(areas: Any) -> "Areas":
     if isinstance(areas, np.ndarray) and areas.dtype == object:
         return areas
     if areas is None or isinstance(areas, BaseGeometry):
-        array = np.empty((), dtype=object)
-        array[()] = areas
-        return array
+        single: Areas = np.empty((), dtype=object)
+        single[()] = areas
+        return single
     try:
         sequence = list(areas)
     except TypeError:

@@ -178,7 +178,7 @@ def minimal_radii(
 
     References
     ----------
-    M. M. Buczek, Area collapse algorithm computing new curve of 2D geometric objects, Geodesy and
+    Buczek, Area collapse algorithm computing new curve of 2D geometric objects, Geodesy and
     Cartography 66(1), 2017, 23-44, sections 3 and 4.
 
     Examples

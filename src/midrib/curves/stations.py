@@ -93,7 +93,7 @@ class StationRule:
             raise ParameterError(msg)
         own: Floats | None = None
         if stations is not None:
-            own = np.unique(np.asarray(stations, dtype=np.float64))
+            own = np.unique(np.asarray(stations, dtype=np.float64)).astype(np.float64)
         if own is not None and (own.ndim != 1 or not np.isfinite(own).all()):
             msg = "stations have a value that is not finite, expected arc lengths"
             raise ParameterError(msg)
@@ -136,10 +136,10 @@ class StationRule:
             if n > MOST_STATIONS:
                 msg = f"an interval of {interval:g} asks for {n:.3g} stations, expected fewer"
                 raise ParameterError(msg)
-            # i L / n rather than i d: commensurate stations stay so when the curve is reversed.
-            steps = np.arange(int(n) + 1)
+            # i (L / n) rather than i d: commensurate stations stay so when the curve is reversed.
+            steps: Floats = np.arange(int(n) + 1, dtype=np.float64)
             is_even = abs(length - n * interval) <= SAME_STATION * length
-            by_interval = length * (steps / n) if is_even else interval * steps
+            by_interval = steps * (length / n) if is_even else steps * interval
         if self.stations is None:
             return by_interval
         outside = self.stations[(self.stations < 0.0) | (self.stations > length)]

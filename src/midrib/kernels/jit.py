@@ -48,5 +48,5 @@ def njit(*, entry: bool = False) -> Callable[[Kernel], Kernel]:
     Kernels that only other kernels call are compiled into their callers, and LLVM inlines the
     small ones. Arithmetic stays IEEE (no ``fastmath``): the bounds of the predicates need it.
     """
-    compiled: Callable[[Kernel], Kernel] = nb.njit(cache=entry, nogil=entry, error_model="numpy")
+    compiled: Any = nb.njit(cache=entry, nogil=entry, error_model="numpy")
     return compiled
