@@ -23,7 +23,7 @@ class EndRule(StrEnum):
     none = "none"
 
 
-def collapse(  # noqa: PLR0917  # every argument and option is a parameter
+def collapse(
     source: Annotated[
         Path, typer.Argument(metavar="IN", help="Vector file with areas.", show_default=False)
     ],

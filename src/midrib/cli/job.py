@@ -79,11 +79,12 @@ def collapse_layer(
 def statuses(batch: "Batch", problems: list[Problem], refused: dict[int, str]) -> list[str]:
     """Text about each feature; reasons of refusals are added to ``refused``."""
     said: list[list[str]] = [[] for _ in batch.geometries]
-    for index, part, status, reason in problems:
-        where = f"part {part} " if part else ""
-        said[index].append(f"{where}{status}: {reason.removesuffix(f' {status}')}")
-        if status == "refused":
-            refused.setdefault(index, f"{where and f'{where.strip()}: '}{reason}")
+    for problem in problems:
+        where = f"part {problem.part}" if problem.part else ""
+        reason = problem.reason.removesuffix(f" {problem.status}")
+        said[problem.index].append(f"{where} {problem.status}: {reason}".lstrip())
+        if problem.status == "refused":
+            refused.setdefault(problem.index, f"{where}: {reason}".removeprefix(": "))
     there = ~(shapely.is_missing(batch.geometries) | shapely.is_empty(batch.geometries))
     return ["; ".join(s) or ("ok" if t else NO_GEOMETRY) for s, t in zip(said, there, strict=True)]
 

@@ -32,12 +32,12 @@ def curves_of(
     areas: "Geometries", along: "Geometries | None", geographic: bool, options: dict[str, Any]
 ) -> Iterator[tuple[int, Curve]]:
     """Position of the area and curve of minimal radii, of each part that is not refused."""
-    for part in valid_parts(areas, Log(None, strict=False)):
-        scale = degree_lengths(shapely.bounds(part.polygon)) if geographic else PLANE
-        guide = None if along is None else along[part.index]
+    for index, _, polygon in valid_parts(areas, Log(None, strict=False)):
+        scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
+        guide = None if along is None else along[index]
         try:
-            layout = divide(boundary_of(*rings_of_area(part.polygon)), scale, along=guide)
-            strip = Strip._of_layout(layout, part.polygon)  # has its scale
-            yield part.index, minimal_radii(strip, **(DEFAULTS | options))
+            layout = divide(boundary_of(*rings_of_area(polygon)), scale, along=guide)
+            strip = Strip._of_layout(layout, polygon)  # has its scale
+            yield index, minimal_radii(strip, **(DEFAULTS | options))
         except MidribError:
             continue

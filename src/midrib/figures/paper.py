@@ -109,8 +109,12 @@ class Paper(NamedTuple):
     def save(self, path: Path) -> None:
         """Write the sheet; the same drawing gives the same bytes."""
         kind = path.suffix.lower().removeprefix(".")
-        dates = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
-        self.figure.savefig(path, format=kind, dpi=DPI, metadata=dates.get(kind))
+        extra = {
+            "svg": {"metadata": {"Date": None}},
+            "pdf": {"metadata": {"CreationDate": None}},
+            "png": {"pil_kwargs": {"optimize": True}},
+        }
+        self.figure.savefig(path, format=kind, dpi=DPI, **extra[kind])
 
 
 def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
