@@ -179,9 +179,10 @@ def largest_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
 
 def widths(points: "Floats", owner: "Ints", areas: "Geometries", geographic: bool) -> "Floats":
     """Twice the distance of each point to the boundary of its owner's area, NaN without one."""
-    rings, area_of_ring = shapely.get_rings(areas, return_index=True)
+    parts, area_of_part = shapely.get_parts(areas, return_index=True)
+    rings, part_of_ring = shapely.get_rings(parts, return_index=True)
     boundary, ring = shapely.get_coordinates(rings, return_index=True)
-    area = area_of_ring[ring]
+    area = area_of_part[part_of_ring[ring]]
     goes_on = np.zeros(ring.size, dtype=np.bool_)
     goes_on[:-1] = ring[:-1] == ring[1:]
     if geographic:

@@ -19,8 +19,13 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command(
-    epilog="Examples:  midrib collapse rivers.gpkg out.gpkg --spacing 5m  ·  "
-    "midrib collapse slopes.gpkg out.gpkg --layer slope --main crest:slope_id"
+    help="Collapse areas to lines: one line without branches inside each.\n\n"
+    "Attributes and CRS are kept. New columns: length, width_mean and width_max (in units of the "
+    "CRS, metres if it is geographic) and status. Areas that are refused go to a layer, or a file, "
+    "…_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib collapse rivers.gpkg out.gpkg --spacing 5m\n\n"
+    "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)
 
 
@@ -35,7 +40,9 @@ def show_version(is_asked: bool) -> None:
 def options(
     _version: Annotated[
         bool,
-        typer.Option("--version", callback=show_version, is_eager=True, help="Show the version."),
+        typer.Option(
+            "--version", callback=show_version, is_eager=True, metavar="", help="Show the version."
+        ),
     ] = False,
 ) -> None:
     """Take the options that every command has."""

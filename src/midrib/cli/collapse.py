@@ -54,7 +54,8 @@ def collapse(
         ),
     ] = None,
     method: Annotated[
-        str, typer.Option(help="One of [bold]midrib methods[/].", rich_help_panel=LINE)
+        str,
+        typer.Option(metavar="NAME", help="One of [bold]midrib methods[/].", rich_help_panel=LINE),
     ] = "minimal-radii",
     spacing: Annotated[
         str | None,
@@ -66,28 +67,36 @@ def collapse(
         ),
     ] = None,
     count: Annotated[
-        int | None, typer.Option(help="Or: number of intervals.", rich_help_panel=LINE)
+        int | None, typer.Option(metavar="N", help="Or: number of intervals.", rich_help_panel=LINE)
     ] = None,
     percent: Annotated[
         float | None,
-        typer.Option(help="Or: interval in percent of the side's length.", rich_help_panel=LINE),
+        typer.Option(
+            metavar="N", help="Or: interval in percent of the side's length.", rich_help_panel=LINE
+        ),
     ] = None,
     vertices: Annotated[
-        bool, typer.Option(help="Radii at the vertices of the side too.", rich_help_panel=LINE)
+        bool,
+        typer.Option(
+            metavar="", help="Radii at the vertices of the side too.", rich_help_panel=LINE
+        ),
     ] = True,
     ends: Annotated[
         EndRule,
         typer.Option(
-            help="Where the line ends: at the ends of the main side, in the middles of the end "
-            "caps, at the middles of the last radii to other segments, or with the last radius.",
+            metavar="RULE",
+            help="Where the line ends. caps: in the middles of the end caps; main: at the ends of "
+            "the main side; radii: at the middles of its last radii to other segments; none: with "
+            "its last radius.",
             rich_help_panel=LINE,
         ),
     ] = EndRule.caps,
     end_clearance: Annotated[
         str,
         typer.Option(
-            metavar="station|proportional|none|LENGTH",
-            help="What keeps radii out of a tip.",
+            metavar="RULE|LENGTH",
+            help="What keeps radii out of a tip that both sides share: station, proportional, "
+            "none, or a length.",
             rich_help_panel=LINE,
         ),
     ] = "proportional",
@@ -106,18 +115,16 @@ def collapse(
         ),
     ] = None,
     overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace files.", rich_help_panel=OUTPUT)
+        bool, typer.Option("--overwrite", metavar="", help="Replace files.", rich_help_panel=OUTPUT)
     ] = False,
     quiet: Annotated[
-        bool, typer.Option("--quiet", "-q", help="No progress, no summary.", rich_help_panel=OUTPUT)
+        bool,
+        typer.Option(
+            "--quiet", "-q", metavar="", help="No progress, no summary.", rich_help_panel=OUTPUT
+        ),
     ] = False,
 ) -> None:
-    """Collapse areas to lines: one line without branches inside each.
-
-    Attributes and CRS are kept. New columns: length, width_mean, width_max (in units of the CRS,
-    metres if it is geographic) and status. Areas that are refused go to a layer, or a file,
-    "…_refused" with the reason. Exit code 0: done, 1: some refused, 2: wrong usage.
-    """
+    """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.guides import guides_for
     from midrib.cli.job import check_options, collapse_layer
     from midrib.cli.output import Places, draw

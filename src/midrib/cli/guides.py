@@ -113,8 +113,8 @@ class PlacedGuides:
                 near = tree.query_nearest(line)
             samples = line.interpolate(np.linspace(0.0, 1.0, SAMPLES), normalized=True)
             distance = shapely.distance(samples[None, :], boundaries[near, None]).mean(axis=1)
-            if near.size and distance.min() < line.length:
-                self.guides[near[distance <= distance.min() + SAME_DISTANCE * line.length]] = line
+            nearest = distance.min(initial=line.length)  # nothing farther off lies along it
+            self.guides[near[distance <= nearest + SAME_DISTANCE * line.length]] = line
 
     def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
         """Lines of the areas of the batch."""

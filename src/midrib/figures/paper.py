@@ -108,13 +108,16 @@ class Paper(NamedTuple):
 
     def save(self, path: Path) -> None:
         """Write the sheet; the same drawing gives the same bytes."""
+        from matplotlib import rc_context
+
         kind = path.suffix.lower().removeprefix(".")
-        extra = {
+        extra: dict[str, dict[str, Any]] = {
             "svg": {"metadata": {"Date": None}},
             "pdf": {"metadata": {"CreationDate": None}},
             "png": {"pil_kwargs": {"optimize": True}},
         }
-        self.figure.savefig(path, format=kind, dpi=DPI, **extra[kind])
+        with rc_context({"svg.hashsalt": "midrib"}):
+            self.figure.savefig(path, format=kind, dpi=DPI, **extra[kind])
 
 
 def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
@@ -154,7 +157,7 @@ def path_of(area: Any) -> Any:
     """Matplotlib path of an area with all its rings."""
     from matplotlib.path import Path as Outline
 
-    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(area)]
+    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(area))]
     codes = [
         [Outline.MOVETO] + [Outline.LINETO] * (len(ring) - 2) + [Outline.CLOSEPOLY]
         for ring in rings
