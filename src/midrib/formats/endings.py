@@ -23,6 +23,8 @@ class Format:
         Whether one file takes several layers.
     is_drawing : bool
         Whether it takes geometries only: no attributes, no feature without a geometry.
+    has_crs : bool
+        Whether it says what coordinates mean.
     options : tuple of pairs
         Layer options of the driver.
     """
@@ -30,6 +32,7 @@ class Format:
     driver: str
     has_layers: bool = False
     is_drawing: bool = False
+    has_crs: bool = True
     options: tuple[tuple[str, str], ...] = ()
 
 
@@ -47,11 +50,11 @@ FORMATS = {
     "sqlite": Format("SQLite", has_layers=True, options=(("FORMAT", "SPATIALITE"),)),
     "gml": Format("GML"),
     "kml": Format("KML"),
-    "csv": Format("CSV", options=(("GEOMETRY", "AS_WKT"),)),
+    "csv": Format("CSV", has_crs=False, options=(("GEOMETRY", "AS_WKT"),)),
     "tab": Format("MapInfo File"),
     "mif": Format("MapInfo File"),
     "jml": Format("JML"),
-    "dxf": Format("DXF", is_drawing=True),
+    "dxf": Format("DXF", is_drawing=True, has_crs=False),
 }
 
 

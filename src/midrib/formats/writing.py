@@ -102,7 +102,9 @@ def write_layer(path: Path, features: Features) -> list[str]:
     if target.driver == PARQUET:
         write_parquet(path, table, features.geometry, features.crs)
         return []
-    notes = [f"{target.driver} has no place for attributes"] if target.is_drawing else []
+    lost = ["attributes"] * target.is_drawing
+    lost += ["a CRS"] * (features.crs is not None and not target.has_crs)
+    notes = [f"{target.driver} has no place for {what}" for what in lost]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:

@@ -1,0 +1,76 @@
+"""Files are whole or not there."""
+
+from pathlib import Path
+
+import pytest
+
+from midrib.errors import ParameterError
+from midrib.formats.writing import check_free, staged
+from tests.formats.layers import read_all, write
+
+LINES: list[str | None] = ["LINESTRING (0 0, 1 1)", "LINESTRING (2 0, 3 1)"]
+
+
+def break_off(folder: Path, name: str, error: type[BaseException]) -> None:
+    """Write a file and stop before all is done."""
+    with staged(folder, stale=[folder / name]) as stage:
+        write(stage / name, LINES[:1])
+        raise error
+
+
+@pytest.mark.parametrize("error", [ValueError, KeyboardInterrupt])
+@pytest.mark.parametrize("ending", ["gpkg", "shp", "parquet", "gdb"])
+def test_interrupted_writes_leave_nothing(
+    ending: str, error: type[BaseException], tmp_path: Path
+) -> None:
+    with pytest.raises(error):
+        break_off(tmp_path, f"lines.{ending}", error)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_interrupted_writes_leave_the_old_file(tmp_path: Path) -> None:
+    path = write(tmp_path / "lines.gpkg", LINES)
+    before = path.read_bytes()
+    with pytest.raises(ValueError):  # noqa: PT011  # our own
+        break_off(tmp_path, "lines.gpkg", ValueError)
+    assert path.read_bytes() == before
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "shp", "parquet", "gdb", "gml"])
+def test_replaced_files_are_whole(ending: str, tmp_path: Path) -> None:
+    path = write(tmp_path / f"lines.{ending}", LINES)
+    with staged(tmp_path) as stage:
+        write(stage / path.name, LINES[:1])
+    assert len(read_all(path)[2]) == 1
+    assert not [file for file in tmp_path.iterdir() if file.name.startswith(".")]
+
+
+def test_side_files_of_a_replaced_shapefile_go(tmp_path: Path) -> None:
+    path = write(tmp_path / "lines.shp", LINES)
+    (tmp_path / "lines.qix").write_bytes(b"an index of other features")
+    with staged(tmp_path) as stage:
+        write(stage / "lines.shp", LINES[:1])
+    assert not (tmp_path / "lines.qix").exists()
+    assert path.exists()
+
+
+def test_stale_files_go_unless_they_are_replaced(tmp_path: Path) -> None:
+    stale, other = (write(tmp_path / f"{name}.shp", LINES) for name in ("stale", "other"))
+    with staged(tmp_path, stale=[stale, tmp_path / "never_there.shp"]) as stage:
+        write(stage / "new.gpkg", LINES)
+    assert not list(tmp_path.glob("stale.*"))
+    assert other.exists()
+    assert (tmp_path / "new.gpkg").exists()
+
+
+def test_existing_files_are_kept_unless_told_otherwise(tmp_path: Path) -> None:
+    path = write(tmp_path / "lines.gpkg", LINES)
+    with pytest.raises(ParameterError, match=r"OUT '.*' exists, give --overwrite"):
+        check_free([path], "OUT", overwrite=False)
+    check_free([path], "OUT", overwrite=True)
+
+
+def test_missing_folders_are_named(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="lies in a folder that does not exist"):
+        check_free([tmp_path / "nowhere" / "lines.gpkg"], "OUT", overwrite=False)
