@@ -4,7 +4,7 @@ import signal
 import sys
 import warnings
 
-from midrib.errors import MidribError, MissingDependencyError
+from midrib.errors import MidribError
 
 __all__ = ["main"]
 
@@ -20,10 +20,12 @@ def main() -> None:
     warnings.formatwarning = lambda message, *_, **__: f"midrib: note: {message}\n"
     try:
         app(prog_name="midrib")
-    except (MidribError, MissingDependencyError) as error:
+    except MidribError as error:
         leave(str(error), WRONG_USAGE)
-    except KeyboardInterrupt:
-        leave("interrupted, nothing is written", INTERRUPTED)
+    except SystemExit as ended:
+        if ended.code == INTERRUPTED:
+            leave("interrupted", INTERRUPTED)
+        raise
 
 
 def leave(sentence: str, code: int) -> None:

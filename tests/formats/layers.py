@@ -30,7 +30,12 @@ def projjson(crs: str) -> str:
 RD_NEW = projjson("EPSG:28992")
 
 
-def features_of(wkts: list[str | None], crs: str | None = RD_NEW, layer: str = "some") -> Features:
+def features_of(
+    wkts: list[str | None],
+    crs: str | None = RD_NEW,
+    layer: str = "some",
+    kind: str = "LineString",
+) -> Features:
     """Features with a number, a text and a real attribute each."""
     n = len(wkts)
     attributes = pa.table(
@@ -40,14 +45,18 @@ def features_of(wkts: list[str | None], crs: str | None = RD_NEW, layer: str = "
             "share": pa.array(np.arange(n) / 4.0),
         }
     )
-    return Features(layer, attributes, shapely.from_wkt(wkts), "geom", "LineString", crs)
+    return Features(layer, attributes, shapely.from_wkt(wkts), "geom", kind, crs)
 
 
 def write(
-    path: Path, wkts: list[str | None], crs: str | None = RD_NEW, layer: str = "some"
+    path: Path,
+    wkts: list[str | None],
+    crs: str | None = RD_NEW,
+    layer: str = "some",
+    kind: str = "LineString",
 ) -> Path:
-    """Write a layer and return the path."""
-    write_layer(path, features_of(wkts, crs, layer))
+    """Write a layer and return the path; ``kind`` is what it declares where it has no geometry."""
+    write_layer(path, features_of(wkts, crs, layer, kind))
     return path
 
 

@@ -133,7 +133,7 @@ def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
     except ImportError:
         msg = "a figure needs matplotlib: pip install midrib[figures]"
         raise MissingDependencyError(msg) from None
-    bounds = shapely.total_bounds(areas)
+    bounds = shapely.total_bounds([*areas, None])  # NaN where there is nothing
     low, high = (bounds[:2], bounds[2:]) if np.isfinite(bounds).all() else (np.zeros(2), np.ones(2))
     unit = np.ones(2)
     if geographic:

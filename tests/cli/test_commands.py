@@ -1,0 +1,166 @@
+"""Every command on every kind of input: exit codes, and files that are whole or not there."""
+
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pytest
+import shapely
+
+from midrib.cli.app import app
+from midrib.cli.job import with_columns
+from tests.cli.commands import Runner
+from tests.formats.layers import crs_name, read_all, write
+
+STRIP = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0))"
+BENT = "POLYGON ((0 0, 90 0, 90 90, 80 90, 80 10, 0 10, 0 0))"
+BOW_TIE = "POLYGON ((0 0, 8 8, 8 0, 0 8, 0 0))"  # two readings: refused
+NOTHING = "POLYGON ((0 0, 5 5, 9 9, 0 0))"
+TWO = "MULTIPOLYGON (((0 0, 90 0, 90 20, 0 20, 0 0)), ((0 50, 90 50, 90 60, 0 60, 0 50)))"
+
+
+def random_areas() -> list[str | None]:
+    """Ribbons along random walks, some of which cross themselves."""
+    random = np.random.default_rng(7)
+    walks = [np.cumsum(random.normal(size=(12, 2)), axis=0) * 30.0 for _ in range(40)]
+    return [shapely.LineString(walk).buffer(2.0).wkt for walk in walks]
+
+
+# Input: areas, how many of them have a line, how many are refused.
+INPUTS: dict[str, tuple[list[str | None], int, int]] = {
+    "empty": ([], 0, 0),
+    "single": ([STRIP], 1, 0),
+    "several": ([STRIP, BENT, TWO], 3, 0),
+    "missing": ([None, STRIP, "POLYGON EMPTY"], 1, 0),
+    "degenerate": ([STRIP, NOTHING, BOW_TIE, BENT], 2, 2),
+    "mixed": ([STRIP, "POINT (1 1)", "LINESTRING (0 0, 1 1)"], 1, 2),
+    "random": (random_areas(), 40, 0),
+}
+COMMANDS = {
+    "collapse": ["collapse", "IN", "OUT", "--quiet"],
+    "methods": ["methods"],
+}
+
+
+def test_the_table_has_every_command() -> None:
+    names = {command.name or command.callback.__name__ for command in app.registered_commands}  # type: ignore[union-attr]
+    assert names == set(COMMANDS)
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "parquet", "geojson"])
+@pytest.mark.parametrize("case", INPUTS)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_write_whole_files(
+    command: str, case: str, ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    areas, n_lines, n_refused = INPUTS[case]
+    source = write(tmp_path / f"in.{ending}", areas, kind="Polygon")
+    out = tmp_path / f"out.{ending}"
+    places = {"IN": source, "OUT": out}
+    outcome = midrib(*(places.get(word, word) for word in COMMANDS[command]))
+    if "OUT" not in COMMANDS[command]:
+        assert outcome.code == 0
+        return
+    if case == "empty" and ending == "geojson":
+        assert outcome.code in {0, 2}  # a GeoJSON file of nothing does not say what it is of
+        return
+    assert outcome.code == (1 if n_refused else 0), outcome.err
+    assert (outcome.out, outcome.err) == ("", "")
+    layer, attributes, lines = read_all(out)
+    assert np.count_nonzero(~shapely.is_missing(lines)) == n_lines
+    assert len(lines) == len(areas) - n_refused
+    assert crs_name(layer.crs) == "Amersfoort / RD New"
+    assert attributes.column_names[-4:] == ["length", "width_mean", "width_max", "status"]
+    assert attributes["number"].to_pylist() == sorted(attributes["number"].to_pylist())
+    for area, line in zip(areas, lines, strict=False):
+        if n_refused == 0 and line is not None:
+            assert shapely.from_wkt(area).buffer(1e-6).covers(line)
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "parquet", "fgb", "shp"])
+def test_refused_areas_are_written_as_they_were(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    source, out = write(tmp_path / "in.gpkg", INPUTS["degenerate"][0]), tmp_path / f"out.{ending}"
+    outcome = midrib("collapse", source, out, "--out-layer", "lines")
+    assert outcome.code == 1
+    assert "2 lines of 4 features, 2 refused" in outcome.err
+    place = out if ending == "gpkg" else tmp_path / f"out_refused.{ending}"
+    layer = "lines_refused" if ending in {"gpkg", "fgb"} else "out_refused"
+    _, attributes, areas = read_all(place, layer)
+    assert attributes["number"].to_pylist() == [1, 2]
+    assert all(attributes["reason"].to_pylist())
+    assert shapely.equals(areas[1], shapely.from_wkt(BOW_TIE)) or ending == "shp"
+
+
+def test_nothing_refused_leaves_no_file_of_refusals(midrib: Runner, tmp_path: Path) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    stale = write(tmp_path / "out_refused.parquet", [STRIP])
+    out = tmp_path / "out.parquet"
+    assert midrib("collapse", source, out).code == 2
+    assert midrib("collapse", source, out, "--overwrite").code == 0
+    assert out.exists()
+    assert not stale.exists()
+
+
+def test_columns_measure_the_line(midrib: Runner, tmp_path: Path) -> None:
+    out = tmp_path / "out.gpkg"
+    assert midrib("collapse", write(tmp_path / "in.gpkg", [STRIP, None]), out).code == 0
+    row, missing = read_all(out)[1].to_pylist()
+    assert row["length"] == 90.0
+    assert row["width_max"] == 20.0
+    assert 10.0 < row["width_mean"] < 20.0
+    assert row["status"] == "ok"
+    assert missing["status"] == "no geometry"
+    assert missing["length"] is None
+
+
+def test_columns_that_are_taken_are_numbered_on() -> None:
+    taken = pa.table({"length": [1], "Length_2": [2]})
+    table = with_columns(taken, {"length": pa.array([3]), "status": pa.array(["ok"])})
+    assert table.column_names == ["length", "Length_2", "length_3", "status"]
+
+
+def test_spacing_is_the_same_length_in_any_unit(midrib: Runner, tmp_path: Path) -> None:
+    source = write(tmp_path / "in.gpkg", [BENT])
+    lines = []
+    for i, spacing in enumerate(["3", "3m", "300cm", "0.003 km"]):
+        assert midrib("collapse", source, tmp_path / f"{i}.fgb", "--spacing", spacing).code == 0
+        lines.append(read_all(tmp_path / f"{i}.fgb")[2][0])
+    assert all(line.equals_exact(lines[0], 1e-9) for line in lines)
+
+
+def test_geographic_lengths_are_metres(midrib: Runner, tmp_path: Path) -> None:
+    area = shapely.box(5.0, 52.0, 5.01, 52.0005).wkt
+    source = write(tmp_path / "in.gpkg", [area], crs="EPSG:4326")
+    assert midrib("collapse", source, tmp_path / "out.gpkg", "--spacing", "10m").code == 0
+    row = read_all(tmp_path / "out.gpkg")[1].to_pylist()[0]
+    assert row["length"] == pytest.approx(686.8, abs=1.0)
+    assert row["width_max"] == pytest.approx(55.6, abs=0.1)
+
+
+@pytest.mark.parametrize("ends", ["main", "caps", "radii", "none"])
+@pytest.mark.parametrize("clearance", ["station", "proportional", "none", "5m"])
+def test_every_rule_for_ends_runs(
+    ends: str, clearance: str, midrib: Runner, tmp_path: Path
+) -> None:
+    source, out = write(tmp_path / "in.gpkg", [STRIP, BENT]), tmp_path / "out.fgb"
+    outcome = midrib(
+        "collapse", source, out, "--ends", ends, "--end-clearance", clearance, "--no-vertices"
+    )
+    assert outcome.code == 0
+
+
+def test_methods_are_listed(midrib: Runner) -> None:
+    outcome = midrib("methods")
+    assert outcome.code == 0
+    assert outcome.out.splitlines()[0].split() == ["name", "source", "holes", "exact", "cost"]
+    assert "minimal-radii  Buczek 2017" in outcome.out
+
+
+def test_figures_are_drawn(midrib: Runner, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    source = write(tmp_path / "in.gpkg", INPUTS["degenerate"][0])
+    figure = tmp_path / "picture.svg"
+    assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
+    assert "<svg" in figure.read_text()

@@ -1,0 +1,100 @@
+"""Wrong usage: exit code 2, one sentence that says what was found and wanted, no file."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from midrib.errors import InvariantError
+from tests.cli.commands import Runner
+from tests.formats.layers import write
+
+STRIP = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0))"
+
+# Arguments after the command, and what the sentence says.
+WRONG: dict[str, tuple[list[str], str]] = {
+    "missing file": (["no.gpkg", "out.gpkg"], "IN 'no.gpkg' does not exist"),
+    "no vector file": (["text.gpkg", "out.gpkg"], "IN 'text.gpkg' cannot be read"),
+    "lines": (["lines.gpkg", "out.gpkg"], "holds LineString, expected areas"),
+    "unknown layer": (["in.gpkg", "out.gpkg", "--layer", "x"], "--layer is 'x', expected a layer"),
+    "unknown ending": (["in.gpkg", "out.png"], "OUT 'out.png' ends in '.png', expected one of"),
+    "existing output": (["in.gpkg", "lines.gpkg"], "OUT 'lines.gpkg' exists, give --overwrite"),
+    "output is input": (["in.gpkg", "in.gpkg", "--overwrite"], "OUT 'in.gpkg' is IN"),
+    "no folder": (["in.gpkg", "no/out.gpkg"], "lies in a folder that does not exist"),
+    "spacing": (["in.gpkg", "out.gpkg", "--spacing", "2x"], "--spacing is '2x', expected a number"),
+    "no spacing": (
+        ["in.gpkg", "out.gpkg", "--spacing", "0"],
+        "spacing is 0.0, expected a positive",
+    ),
+    "two intervals": (
+        ["in.gpkg", "out.gpkg", "--spacing", "2", "--count", "3"],
+        "spacing and count exclude each other",
+    ),
+    "clearance": (
+        ["in.gpkg", "out.gpkg", "--end-clearance", "wide"],
+        "--end-clearance is 'wide', expected",
+    ),
+    "method": (["in.gpkg", "out.gpkg", "--method", "magic"], "method is 'magic', expected"),
+    "main": (["in.gpkg", "out.gpkg", "--main", "x"], "--main is 'x', expected a layer of IN"),
+    "main field": (["in.gpkg", "out.gpkg", "--main", "in:x"], "--main names the field 'x'"),
+    "figure": (["in.gpkg", "out.gpkg", "--figure", "a.gif"], "--figure 'a.gif' ends in '.gif'"),
+    "existing figure": (["in.gpkg", "out.gpkg", "--figure", "a.svg"], "--figure 'a.svg' exists"),
+    "unknown option": (["in.gpkg", "out.gpkg", "--spicing", "2"], "No such option"),
+    "missing argument": (["in.gpkg"], "Missing argument 'OUT'"),
+    "rule for ends": (["in.gpkg", "out.gpkg", "--ends", "odd"], "'odd' is not one of"),
+}
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """Return a folder with some files, which the test must leave as it is."""
+    monkeypatch.chdir(tmp_path)
+    write(tmp_path / "in.gpkg", [STRIP], layer="in")
+    write(tmp_path / "lines.gpkg", ["LINESTRING (0 0, 1 1)"])
+    (tmp_path / "text.gpkg").write_text("no vector file")
+    (tmp_path / "a.svg").write_text("an old picture")
+    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    yield tmp_path
+    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_usage_is_explained_in_a_sentence(case: str, midrib: Runner) -> None:
+    arguments, sentence = WRONG[case]
+    outcome = midrib("collapse", *arguments)
+    assert outcome.code == 2
+    assert sentence in outcome.err
+    assert "Traceback" not in outcome.err
+    assert outcome.out == ""
+
+
+@pytest.mark.usefixtures("folder")
+def test_interrupts_leave_no_file(midrib: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("midrib.cli.output.write_layer", interrupt)
+    outcome = midrib("collapse", "in.gpkg", "out.gpkg")
+    assert (outcome.code, outcome.err) == (130, "midrib: interrupted\n")
+
+
+@pytest.mark.usefixtures("folder")
+def test_our_own_errors_are_a_sentence_too(midrib: Runner, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        message = "the mesh has come apart, please report it"
+        raise InvariantError(message)
+
+    monkeypatch.setattr("midrib.cli.job.collapse", fail)
+    outcome = midrib("collapse", "in.gpkg", "out.gpkg")
+    assert (outcome.code, outcome.err) == (2, "midrib: the mesh has come apart, please report it\n")
+
+
+@pytest.mark.usefixtures("folder")
+def test_figures_without_matplotlib_name_the_command_to_install_it(
+    midrib: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("midrib.figures.draw.find_spec", lambda _: None)
+    outcome = midrib("collapse", "in.gpkg", "out.gpkg", "--figure", "new.svg")
+    assert outcome.code == 2
+    assert "needs matplotlib: pip install midrib[figures]" in outcome.err

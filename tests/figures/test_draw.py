@@ -1,0 +1,110 @@
+"""Pictures: everything asked for is on the sheet, to scale, and the same each time."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from shapely import MultiPolygon, Polygon, box
+
+from midrib.errors import MissingDependencyError, ParameterError
+
+pytest.importorskip("matplotlib")
+
+from midrib.figures.draw import check_figure, draw_collapse, spread
+from midrib.figures.paper import length_label, round_length, sheet_for
+
+STRIP = box(0, 0, 90, 20)
+BOW_TIE = Polygon([(0, 0), (8, 8), (8, 0), (0, 8)])
+HOLES = Polygon(STRIP.exterior.coords, [[(40, 8), (50, 8), (50, 12), (40, 12)]])
+
+
+def names(figure: object) -> list[str]:
+    """Entries of the legend."""
+    return [text.get_text() for text in figure.legends[0].get_texts()]  # type: ignore[attr-defined]
+
+
+def test_everything_is_in_the_legend() -> None:
+    assert names(draw_collapse([STRIP, BOW_TIE])) == [
+        "area",
+        "refused",
+        "radii",
+        "main curve",
+        "auxiliary curve",
+        "curve of minimal radii",
+    ]
+
+
+def test_thin_areas_are_drawn_as_their_line_only() -> None:
+    assert names(draw_collapse(box(0, 0, 900, 1))) == ["area", "curve of minimal radii"]
+
+
+@pytest.mark.parametrize("areas", [[], [None], [Polygon()], STRIP, [HOLES, None]])
+@pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
+def test_any_areas_can_be_drawn(areas: object, ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"picture.{ending}"
+    draw_collapse(areas, path)
+    start = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[ending]
+    assert path.read_bytes().startswith(start)
+
+
+def test_the_same_areas_give_the_same_bytes(tmp_path: Path) -> None:
+    for name in ("one.svg", "other.svg"):
+        draw_collapse([STRIP, HOLES], tmp_path / name)
+    assert (tmp_path / "one.svg").read_bytes() == (tmp_path / "other.svg").read_bytes()
+
+
+@pytest.mark.parametrize(
+    "area", [box(0, 0, 90, 20), box(0, 0, 20, 90), box(5e5, 5e6, 5e5 + 1, 5e6 + 1)]
+)
+def test_sheets_are_true_to_scale(area: Polygon) -> None:
+    paper = sheet_for(np.array([area], dtype=object), False, 200.0)
+    width, height = paper.figure.get_size_inches() * 25.4
+    place = paper.axes.get_position()
+    x, y = np.ptp(paper.axes.get_xlim()), np.ptp(paper.axes.get_ylim())
+    assert place.width * width / x == pytest.approx(paper.scale[0])
+    assert place.height * height / y == pytest.approx(paper.scale[1])
+    assert paper.scale[0] == paper.scale[1]
+
+
+def test_degrees_are_squeezed_as_on_the_ground() -> None:
+    paper = sheet_for(np.array([box(5, 59.9, 6, 60.1)], dtype=object), True, 200.0)
+    assert paper.scale[0] / paper.scale[1] == pytest.approx(0.5, abs=0.005)
+
+
+def test_holes_and_parts_are_left_and_filled() -> None:
+    from midrib.figures.paper import path_of
+
+    path = path_of(MultiPolygon([HOLES, box(0, 50, 90, 70)]))
+    assert len(path.vertices) == len(shapely.get_coordinates([HOLES, STRIP]))
+    assert np.count_nonzero(path.codes == path.MOVETO) == 3
+
+
+def test_radii_are_thinned_out_on_paper() -> None:
+    assert spread(np.full(9, 0.125)).sum() == 3
+    assert spread(np.full(9, 5.0)).all()
+    assert spread(np.empty(0)).tolist() == [True]
+
+
+@pytest.mark.parametrize(
+    ("length", "expected"), [(7.3, 5.0), (1.0, 1.0), (0.029, 0.02), (2e5, 2e5)]
+)
+def test_scale_bars_are_round(length: float, expected: float) -> None:
+    assert round_length(length) == pytest.approx(expected)
+
+
+def test_scale_bars_name_their_unit() -> None:
+    assert length_label(500.0, "m") == "500 m"
+    assert length_label(2000.0, "m") == "2 km"
+    assert length_label(0.5, None) == "0.5 units"
+
+
+def test_other_endings_are_refused() -> None:
+    with pytest.raises(ParameterError, match=r"'a.gif' ends in '.gif', expected .svg, .png, .pdf"):
+        check_figure(Path("a.gif"))
+
+
+def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("midrib.figures.draw.find_spec", lambda _: None)
+    with pytest.raises(MissingDependencyError, match=r"pip install midrib\[figures\]"):
+        check_figure(Path("a.svg"))
