@@ -35,9 +35,12 @@ PLANAR = 2
 def pack_areas(polygons: NDArray[np.object_]) -> Packed:
     """Arrays of an array of Polygons, none missing or empty."""
     has_z = bool(shapely.has_z(polygons).any())
-    _, coordinates, offsets = shapely.to_ragged_array(polygons, include_z=has_z)
-    rings, areas = (np.ascontiguousarray(o, dtype=np.intp) for o in offsets)
-    return Packed(np.ascontiguousarray(coordinates), rings, areas)
+    rings, owner = shapely.get_rings(polygons, return_index=True)
+    coordinates = shapely.get_coordinates(rings, include_z=has_z)
+    ring_offsets = np.zeros(rings.size + 1, dtype=np.intp)
+    np.cumsum(shapely.get_num_coordinates(rings), out=ring_offsets[1:])
+    area_offsets = np.searchsorted(owner, np.arange(polygons.size + 1))
+    return Packed(coordinates, ring_offsets, area_offsets)
 
 
 def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:

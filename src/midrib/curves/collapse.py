@@ -26,8 +26,6 @@ from midrib.strip import PLANE
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from midrib.types import Floats
-
     Areas = NDArray[np.object_]
 
 __all__ = ["Problem", "collapse"]
@@ -250,25 +248,18 @@ def lines_of(
     polygons[:] = [part.polygon for part in parts]
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
-    flat: list[tuple[int, Floats]] = []
     for i, part in enumerate(parts):
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
-            result = find(*packed.rings(i), guide, scale)
+            found = find(*packed.rings(i), guide, scale)
         except MidribError as error:
             log.refuse(part.area, part.number, error)
             continue
-        if result.loops:
-            log.note(part.area, part.number, "loops cut", f"{result.loops} loops cut")
-        if result.height is None:
-            flat.append((i, result.points))
-        else:
-            lines[i] = LineString(np.column_stack([result.points, result.height]))
-    if flat:
-        rows, points = [i for i, _ in flat], [p for _, p in flat]
-        owner = np.repeat(np.arange(len(rows)), [p.shape[0] for p in points])
-        made = shapely.linestrings(np.concatenate(points), indices=owner)
-        for i, line in zip(rows, made, strict=True):
-            lines[i] = line
+        if found.loops:
+            log.note(part.area, part.number, "loops cut", f"{found.loops} loops cut")
+        points = found.points
+        if found.height is not None:
+            points = np.column_stack([points, found.height])
+        lines[i] = shapely.linestrings(points)
     return lines

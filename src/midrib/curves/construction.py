@@ -41,6 +41,8 @@ COLLAPSED = 0.5  # a radius has collapsed into the shared end if E is less than 
 STRAIGHT = 2.0**-20  # a first segment goes on through vertices that bend by less than this
 LOOP_ROUNDS = 8
 JUMP_SLACK = 2.0**-20
+# Stations by default in an area that is very thin for its number of vertices.
+MOST_BY_WIDTH, MOST_BY_VERTEX = 256, 4
 # A radius is lopsided if Q sees the main curve nearer than P by this factor. Of 1.2, 1.5, 2 and 3
 # it gave the most centred lines on rivers, roads, verges and slopes.
 LOPSIDED = 1.5
@@ -80,7 +82,8 @@ class Path(NamedTuple):
 def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Radii:
     """Place the stations on the main curve and draw the radii from them."""
     mesh = layout.mesh
-    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width / 2.0)
+    most = MOST_BY_WIDTH + MOST_BY_VERTEX * (layout.main.arc.size + layout.auxiliary.arc.size)
+    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width / 2.0, most)
     low, high = np.full(stations.arc.size, -np.inf), np.full(stations.arc.size, np.inf)
     if isinstance(clearance, int | float):
         if layout.shares_start:
@@ -120,7 +123,9 @@ def look_from(layout: Layout, stations: Stations, low: Floats, high: Floats) -> 
 
 def replaced(radii: Radii, again: Radii, crowded: Ints) -> Radii:
     """Radii with those of the crowded stations drawn again."""
-    kept = radii.chosen(~np.isin(radii.station, crowded))
+    is_crowded = np.zeros(radii.stations.size, dtype=np.bool_)
+    is_crowded[crowded] = True
+    kept = radii.chosen(~is_crowded[radii.station])
     again = again._replace(station=crowded[again.station])
     both: dict[str, Any] = {
         name: np.concatenate([getattr(kept, name), getattr(again, name)]) for name in PER_RADIUS
@@ -150,17 +155,17 @@ def without_bays(layout: Layout, radii: Radii, crowded: Ints) -> Radii:
         layout.mesh, target, main.vertex, main.arc,
         x, y, auxiliary.side[segment], vertex, radii.length / LOPSIDED, *layout.scale,
     )  # fmt: skip
-    is_lopsided &= ~np.isin(radii.station, crowded)
-    if not is_lopsided.any():
+    in_bay = np.zeros(radii.stations.size, dtype=np.bool_)
+    in_bay[radii.station[is_lopsided]] = True
+    in_bay[crowded] = False
+    is_kept = ~in_bay[radii.station]
+    if not in_bay.any() or not is_kept.any():
         return radii
-    in_bay = np.unique(radii.station[is_lopsided])
-    kept = radii.chosen(~np.isin(radii.station, in_bay))
-    if kept.station.size == 0:
-        return radii
-    new_row = np.delete(np.arange(radii.stations.size), in_bay)
+    kept = radii.chosen(is_kept)
+    new_row = np.cumsum(~in_bay) - 1
     return kept._replace(
-        stations=radii.stations[new_row],
-        station=np.searchsorted(new_row, kept.station),
+        stations=radii.stations[~in_bay],
+        station=new_row[kept.station],
         bays=radii.stations[in_bay],
     )
 
@@ -172,6 +177,7 @@ def crowd_the_ends(
 
     From the end on, up to the first station whose free radius already keeps half its distance:
     from there the construction needs no help, and a bound would only hide the nearest point.
+    Where no station's radius keeps it, the area is no strip at that end and is left alone.
     """
     n, stations = radii.stations.size, radii.stations
     main, auxiliary = layout.main, layout.auxiliary
@@ -181,19 +187,19 @@ def crowd_the_ends(
     crowded = np.zeros(n, dtype=np.bool_)
     if layout.shares_start:
         keeps = ~(last < COLLAPSED * stations) & (stations > 0.0)
-        stop = int(np.argmax(keeps)) if keeps.any() else n
+        stop = int(np.argmax(keeps))
         if stop > 1:
             pace = pace_of(main.arc, auxiliary.arc, layout, clearance, from_start=True)
             crowded[:stop] = True
-            low[:stop] = paced(stations[:stop], *pace)
+            low[:stop] = np.minimum(paced(stations[:stop], *pace), auxiliary.length)
     if layout.shares_end:
         to_go, left = main.length - stations, auxiliary.length - first
         keeps = ~(left < COLLAPSED * to_go) & (to_go > 0.0)
-        start = n - int(np.argmax(keeps[::-1])) if keeps.any() else 0
+        start = n - int(np.argmax(keeps[::-1]))
         if n - start > 1:
             pace = pace_of(main.arc, auxiliary.arc, layout, clearance, from_start=False)
             crowded[start:] = True
-            high[start:] = auxiliary.length - paced(to_go[start:], *pace)
+            high[start:] = np.maximum(auxiliary.length - paced(to_go[start:], *pace), 0.0)
     return crowded
 
 
@@ -327,13 +333,14 @@ def string_beads(radii: Radii, ends: list[EndPoint]) -> Beads:
     middles = (radii.on_main + radii.on_auxiliary) / 2.0
     if not ends:
         return Beads(middles, radii.on_main, radii.side, radii.vertex)
-    a, b = ends
-    return Beads(
-        np.concatenate([[a.point], middles, [b.point]]),
-        np.concatenate([[a.origin], radii.on_main, [b.origin]]),
-        np.concatenate([[a.side], radii.side, [b.side]]),
-        np.concatenate([[a.vertex], radii.vertex, [b.vertex]]),
-    )
+    n = middles.shape[0]
+    point, origin = np.empty((n + 2, 2)), np.empty((n + 2, 2))
+    side, vertex = np.empty(n + 2, dtype=np.intp), np.empty(n + 2, dtype=np.intp)
+    point[1:-1], origin[1:-1] = middles, radii.on_main
+    side[1:-1], vertex[1:-1] = radii.side, radii.vertex
+    for row, end in zip((0, -1), ends, strict=True):
+        point[row], origin[row], side[row], vertex[row] = end[:4]
+    return Beads(point, origin, side, vertex)
 
 
 def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:

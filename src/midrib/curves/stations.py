@@ -103,18 +103,18 @@ class StationRule:
         self.skip_bays = "bays" in [item for item in items if isinstance(item, str)]
         self.skip = [item for item in items if not (isinstance(item, str) and item == "bays")]
 
-    def on(self, main: Chain, x: Floats, y: Floats, half_width: float) -> "Stations":
+    def on(self, main: Chain, x: Floats, y: Floats, half_width: float, most: int) -> "Stations":
         """Stations on one main curve, ascending; x and y are those of mesh vertices.
 
         Without any rule for the interval, and no stations given, it is the largest commensurate
-        one (L / count) not above ``half_width``.
+        one (L / count) not above ``half_width``, or L / ``most`` where that is more.
 
         Raises
         ------
         ParameterError
             If there are none, or absurdly many.
         """
-        own = self.own(main.length, half_width)
+        own = self.own(main.length, max(half_width, main.length / most))
         tolerance = SAME_STATION * main.length
         arc, points, segment, vertex = place_stations(
             own, self.vertices, tolerance, main.arc, main.vertex, x, y

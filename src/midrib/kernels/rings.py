@@ -52,6 +52,29 @@ def distinct_rows(x: Floats, y: Floats, start: int, stop: int) -> Ints:
     return rows[:count]
 
 
+@njit()
+def first_rows(x: Floats, y: Floats, offsets: Ints) -> Ints:
+    """Row of the leftmost vertex of each ring, of several the lowest one."""
+    first = offsets[:-1].copy()
+    for ring in range(first.size):
+        for k in range(offsets[ring], offsets[ring + 1]):
+            b = first[ring]
+            if x[k] < x[b] or (x[k] == x[b] and y[k] < y[b]):
+                first[ring] = k
+    return first
+
+
+@njit()
+def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
+    """Order of the rings: the shell, then the holes by their leftmost vertices."""
+    order = np.arange(first.size)
+    if first.size > 2:
+        holes = first[1:]
+        by_y = np.argsort(y[holes], kind="mergesort")
+        order[1:] = 1 + by_y[np.argsort(x[holes[by_y]], kind="mergesort")]
+    return order
+
+
 @njit(entry=True)
 def normalise_rings(coordinates: Floats, offsets: Ints) -> Rings:
     """Rings of one area in the form above.
@@ -70,18 +93,17 @@ def normalise_rings(coordinates: Floats, offsets: Ints) -> Rings:
     n = x.size
     origin, ring_next = np.empty(n, np.intp), np.empty(n, np.intp)
     count, n_shell = 0, 0
-    for ring in range(offsets.size - 1):
+    first = first_rows(x, y, offsets)
+    for ring in shell_then_holes(x, y, first):
         rows = distinct_rows(x, y, offsets[ring], offsets[ring + 1])
         size = rows.size
         if size < 3:
             continue
         if (signed_area(x, y, rows) > 0.0) != (ring == 0):
             rows = rows[::-1].copy()
-        low = 0
-        for i in range(1, size):
-            a, b = rows[i], rows[low]
-            if x[a] < x[b] or (x[a] == x[b] and y[a] < y[b]):
-                low = i
+        low, leftmost = 0, first[ring]
+        while x[rows[low]] != x[leftmost] or y[rows[low]] != y[leftmost]:
+            low += 1
         for i in range(size):
             origin[count + i] = rows[(low + i) % size]
             ring_next[count + i] = count + (i + 1) % size

@@ -239,8 +239,8 @@ def insert_all(
 
 
 @njit()
-def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
-    """Return the half-edge from a to b, or -1."""
+def side_around(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
+    """Return the half-edge from a to b, found by turning around a, or -1."""
     start = out[a]
     e = start
     while True:
@@ -249,6 +249,19 @@ def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
         e = twin[previous_side(e)]
         if e == start or e < 0:
             return -1
+
+
+@njit()
+def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
+    """Return the half-edge from a to b, or -1.
+
+    Around a corner of the outer triangle the turn may end too early; then b has it.
+    """
+    e = side_around(a, b, tri, twin, out)
+    if e >= 0:
+        return e
+    f = side_around(b, a, tri, twin, out)
+    return twin[f] if f >= 0 else -1
 
 
 @njit()

@@ -452,6 +452,7 @@ def nearest_seen(
     low: float,
     high: float,
     reach: float,
+    guess: float,
     bound: float,
     view: View,
 ) -> tuple[View, int, float]:
@@ -460,7 +461,8 @@ def nearest_seen(
     In ``view.near``, their number, and how far the nearest point is at all.
 
     No point farther than ``bound`` counts; ``reach`` is known to hold the nearest one (inf: not
-    known). The view comes back with larger tables where it needed them.
+    known) and ``guess`` may hold the nearest one that is seen. The view comes back with larger
+    tables where it needed them.
     """
     # 1. The nearest point at all.
     slack = goal.tie if reach == np.inf else max(goal.tie, TIE_OF_RADIUS * reach)
@@ -506,7 +508,11 @@ def nearest_seen(
         count += 1
     # 3. If it cannot be told, the point looks around.
     if doubts:
-        view, count = look(mesh, goal, x, y, side, vertex, low, high, bound, view)
+        count = 0
+        if guess < bound:
+            view, count = look(mesh, goal, x, y, side, vertex, low, high, guess, view)
+        if count == 0:
+            view, count = look(mesh, goal, x, y, side, vertex, low, high, bound, view)
     return view, count, nearest
 
 
@@ -555,20 +561,35 @@ def nearest_visible(
     found = np.empty((n + 8, 4))
     goal = goal_of(mesh, target, aux_vertex, aux_arc, scale_x, scale_y)
     view = new_view()
-    total, reach = 0, np.inf
+    total, reach, seen = 0, np.inf, np.inf
     for i in range(n):
-        # The nearest point is at most a step farther than the one before, if as many count.
-        if i > 0 and reach < np.inf:
-            reach += np.hypot((px[i] - px[i - 1]) * scale_x, (py[i] - py[i - 1]) * scale_y)
-            reach = reach * (1.0 + TIE_OF_RADIUS) + goal.tie
+        # The nearest point is at most a step farther than the one before, if as many count; so
+        # is, mostly, the nearest one that is seen.
+        if i > 0:
+            step = np.hypot((px[i] - px[i - 1]) * scale_x, (py[i] - py[i - 1]) * scale_y)
+            reach = (reach + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
+            seen = (seen + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
             if low[i] > low[i - 1] or high[i] < high[i - 1]:
                 reach = np.inf
         view, count, reach = nearest_seen(
-            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], reach, np.inf, view
+            mesh,
+            goal,
+            px[i],
+            py[i],
+            p_side[i],
+            p_vertex[i],
+            low[i],
+            high[i],
+            reach,
+            seen,
+            np.inf,
+            view,
         )
+        seen = np.inf
         if count == 0:
             continue
         kept = keep_ties(view.near, view.near_kind, count, goal.tie)
+        seen = np.sqrt(view.near[0, 3])
         if total + kept > station.size:
             room = 2 * (total + kept)
             found = grown(found, room)
@@ -610,6 +631,7 @@ def sees_within(
             p_side[i],
             p_vertex[i],
             -np.inf,
+            np.inf,
             np.inf,
             np.inf,
             bound[i],

@@ -1,0 +1,210 @@
+"""The mesh of an area: covers it exactly, with every ring segment a side."""
+
+from collections import Counter
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, Polygon, box
+
+from midrib.kernels.mesh import Mesh
+from midrib.layout import Boundary, boundary_of
+from midrib.ragged import rings_of_area
+from tests.shapes import VALID, annulus_sector, stadium
+from tests.strategies import areas, with_holes
+
+Exact = tuple[Fraction, Fraction]
+
+
+def mesh_of(area: Polygon) -> tuple[Boundary, Mesh]:
+    """Triangulate an area."""
+    boundary = boundary_of(*rings_of_area(area))
+    return boundary, boundary.mesh
+
+
+def exact_vertices(mesh: Mesh) -> list[Exact]:
+    """Vertices as fractions."""
+    return [(Fraction(x), Fraction(y)) for x, y in zip(mesh.x, mesh.y, strict=True)]
+
+
+def doubled(a: Exact, b: Exact, c: Exact) -> Fraction:
+    """Twice the signed area of a triangle."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def exact_area(area: Polygon) -> Fraction:
+    """Twice the area between shell and holes."""
+    total = Fraction(0)
+    for i, ring in enumerate((area.exterior, *area.interiors)):
+        points = [(Fraction(x), Fraction(y)) for x, y, *_ in ring.coords]
+        size = abs(sum((a[0] * b[1] - b[0] * a[1] for a, b in pairwise(points)), Fraction(0)))
+        total += size if i == 0 else -size
+    return total
+
+
+def check_mesh(area: Polygon) -> None:
+    """Everything that a mesh promises."""
+    boundary, mesh = mesh_of(area)
+    vertices = exact_vertices(mesh)
+    triangles = mesh.tri.reshape(-1, 3)
+    sizes = [doubled(*(vertices[v] for v in t)) for t in triangles]
+    assert min(sizes) > 0
+    assert sum(sizes) == exact_area(area)
+    check_twins(mesh)
+    check_sides(area, boundary)
+
+
+def check_twins(mesh: Mesh) -> None:
+    """Twins are each other's, and run the other way."""
+    after = np.arange(mesh.tri.size).reshape(-1, 3)[:, [1, 2, 0]].ravel()
+    inner = np.flatnonzero(mesh.twin >= 0)
+    twin = mesh.twin[inner]
+    assert (mesh.twin[twin] == inner).all()
+    assert (mesh.tri[twin] == mesh.tri[after[inner]]).all()
+    assert (mesh.tri[after[twin]] == mesh.tri[inner]).all()
+    doors = [e for e in range(mesh.tri.size) if mesh.twin[e] < 0]
+    found = []
+    for v in range(mesh.x.size):
+        door = mesh.door[v]
+        while door >= 0:
+            assert mesh.tri[door] == v
+            found.append(int(door))
+            door = mesh.other_door[door]
+    assert sorted(found) == doors
+
+
+def check_sides(area: Polygon, boundary: Boundary) -> None:
+    """Boundary sides lie on the rings and cover them, each once, the area on their left."""
+    mesh = boundary.mesh
+    after = np.arange(mesh.tri.size).reshape(-1, 3)[:, [1, 2, 0]].ravel()
+    outer = np.flatnonzero(mesh.twin < 0)
+    ends = np.stack([mesh.tri[outer], mesh.tri[after[outer]]], axis=1)
+    sides = [LineString([(mesh.x[a], mesh.y[a]), (mesh.x[b], mesh.y[b])]) for a, b in ends.tolist()]
+    assert max(Counter(frozenset(pair) for pair in ends.tolist()).values()) == 1
+    assert all(area.boundary.covers(side) for side in sides)
+    assert sum(side.length for side in sides) == pytest.approx(area.length, rel=1e-12)
+    assert np.array_equal(mesh.tri[boundary.side], boundary.order)
+    assert (mesh.twin[boundary.side] < 0).all()
+    assert np.array_equal(mesh.tri[after[boundary.side]], np.roll(boundary.order, -1))
+    ring = shapely.get_coordinates(shapely.linearrings(
+        np.column_stack([mesh.x[boundary.order], mesh.y[boundary.order]])
+    ))  # fmt: skip
+    assert shapely.is_ccw(shapely.linearrings(ring))
+    assert Polygon(ring).equals(Polygon(area.exterior))
+
+
+@pytest.mark.parametrize("name", VALID)
+def test_named_areas_are_covered_exactly(name: str) -> None:
+    check_mesh(VALID[name])
+
+
+@given(area=areas)
+@settings(max_examples=300)
+def test_areas_are_covered_exactly(area: Polygon) -> None:
+    check_mesh(area)
+
+
+@given(area=with_holes())
+@settings(max_examples=200)
+def test_areas_with_holes_are_covered_exactly(area: Polygon) -> None:
+    check_mesh(area)
+
+
+@given(area=areas)
+@settings(max_examples=200)
+def test_triangles_are_as_many_as_euler_says(area: Polygon) -> None:
+    """Of n vertices and h holes that touch nothing: n + 2 h - 2."""
+    boundary, mesh = mesh_of(area)
+    rings = [area.exterior, *area.interiors]
+    corners = [xy for ring in rings for xy in ring.coords[:-1]]
+    if len(set(corners)) < mesh.x.size or any(
+        a.intersects(b) for i, a in enumerate(rings) for b in rings[:i]
+    ):
+        return
+    assert mesh.tri.size // 3 == len(corners) + 2 * len(area.interiors) - 2
+    assert boundary.has_holes == bool(area.interiors)
+
+
+def not_delaunay(mesh: Mesh) -> tuple[int, int]:
+    """Inner edges with the vertex across inside the circle by more than rounding, and all."""
+    after = np.arange(mesh.tri.size).reshape(-1, 3)[:, [1, 2, 0]].ravel()
+    inner = np.flatnonzero(mesh.twin >= 0)
+    bad = 0
+    xy = np.column_stack([mesh.x, mesh.y])
+    for e in inner:
+        a, b, c = xy[mesh.tri[e]], xy[mesh.tri[after[e]]], xy[mesh.tri[after[after[e]]]]
+        d = xy[mesh.tri[after[after[mesh.twin[e]]]]]
+        rows = np.array([a, b, c]) - d
+        squares = (rows**2).sum(axis=1)
+        det = np.linalg.det(np.column_stack([rows, squares]))
+        bad += det > 1e-9 * squares.max() ** 2
+    return bad, inner.size
+
+
+@given(area=areas)
+@settings(max_examples=150)
+def test_triangles_are_delaunay_between_constraints(area: Polygon) -> None:
+    bad, _ = not_delaunay(mesh_of(area)[1])
+    assert bad == 0
+
+
+@pytest.mark.parametrize("n", [4, 64, 1000])
+def test_vertices_on_one_circle(n: int) -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, n, endpoint=False)
+    check_mesh(Polygon(np.column_stack([np.cos(angle), np.sin(angle)])))
+
+
+@pytest.mark.parametrize("corner", [(5000.0, 7.0), (-3.0, 1e-9), (1e6, 1e6)])
+def test_ten_thousand_collinear_vertices(corner: tuple[float, float]) -> None:
+    base = [(float(x), 0.0) for x in range(10_000)]
+    check_mesh(Polygon([*base, corner]))
+
+
+def test_ten_thousand_collinear_vertices_on_a_slant() -> None:
+    """The vertices are on the line up to rounding only: a boundary of tiny turns."""
+    x = np.linspace(0.0, 1.0, 10_000)
+    area = Polygon(np.concatenate([np.column_stack([x, 0.3 * x]), [[0.0, 1.0]]]))
+    assert area.is_valid
+    _, mesh = mesh_of(area)
+    assert mesh.tri.size // 3 == area.exterior.coords.__len__() - 3
+
+
+@pytest.mark.parametrize("n", [3, 12])
+def test_a_sheet_of_square_holes(n: int) -> None:
+    """Cocircular everywhere: every four corners lie on a circle."""
+    cells = [box(3 * i + 1, 3 * j + 1, 3 * i + 2, 3 * j + 2) for i in range(n) for j in range(n)]
+    check_mesh(Polygon(box(0, 0, 3 * n, 3 * n).exterior, [cell.exterior for cell in cells]))
+
+
+@pytest.mark.parametrize("power", [-200, -60, 60, 200])
+@pytest.mark.parametrize("name", ["comb", "three_islands", "hook", "necklace"])
+def test_powers_of_two_give_the_same_triangles(name: str, power: int) -> None:
+    area = VALID[name]
+    factor = 2.0**power
+    larger = shapely.transform(area, lambda xy: xy * factor)
+    _, mesh = mesh_of(area)
+    _, other = mesh_of(larger)
+    assert np.array_equal(mesh.tri, other.tri)
+    assert np.array_equal(mesh.twin, other.twin)
+    assert np.array_equal(mesh.x * factor, other.x)
+
+
+@pytest.mark.parametrize("area", [annulus_sector(900.0, 901.0, 3.0, 3000), stadium(1e3, 1.0)])
+def test_long_bent_areas_are_covered_exactly(area: Polygon) -> None:
+    check_mesh(area)
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=30)
+def test_rough_rivers_are_covered_exactly(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    x = np.cumsum(rng.uniform(0.0, 1.0, 150))
+    low, high = np.cumsum(rng.normal(0.0, 0.3, 150)), rng.uniform(0.01, 2.0, 150)
+    area = Polygon(
+        np.concatenate([np.column_stack([x, low]), np.column_stack([x, low + high])[::-1]])
+    )
+    check_mesh(area)

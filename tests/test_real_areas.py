@@ -1,0 +1,111 @@
+"""Real layers: every valid area has its line, every other one a reason.
+
+The layers are not part of the project; without the folder beside it these tests are skipped.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from numpy.typing import NDArray
+
+from midrib import collapse
+
+geopandas = pytest.importorskip("geopandas")
+pyogrio = pytest.importorskip("pyogrio")
+
+FOLDER = Path(__file__).parents[2] / "shared" / "data"
+MOST_VERTICES = 20_000  # of one area: coasts of whole islands take minutes to check
+
+pytestmark = [
+    pytest.mark.shared,
+    pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent"),
+]
+
+LAYERS = [
+    ("nl_bgt_gooi.gpkg", "vlak"),
+    ("nl_bgt_gooi.gpkg", "talud"),
+    ("osm_at_krems.gpkg", "areas"),
+    ("osm_de_heidelberg.gpkg", "areas"),
+    ("osm_fi_helsinki.gpkg", "areas"),
+    ("pl_bdot500_opole_west.gpkg", "skarpa"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_Jezdnia"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_CiagRuchuPieszegoIRowerowego"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_Plac"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_Row"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_InnaBudowla"),
+    ("pl_bdot500_opole_west.gpkg", "BDZ_TerenLesnyZadrzewionyLubZakrzewiony"),
+    ("pl_szkoleniowy_skarpa_kreski.gpkg", "skarpa"),
+    ("us_river_louisiana.gpkg", "polygon"),
+    ("geomaps_rivers_americas_poland.parquet", None),
+    ("gshhg_rivers_lakes_americas.parquet", None),
+    ("nl_plots.parquet", None),
+    ("osm2streets_road_polygons.parquet", None),
+]
+
+
+def areas_of(file: str, layer: str | None) -> Any:
+    """The polygons of a layer that are not too large to be checked here."""
+    path = FOLDER / file
+    frame = (
+        geopandas.read_parquet(path) if layer is None else geopandas.read_file(path, layer=layer)
+    )
+    shapes = frame.geometry
+    is_area = shapes.geom_type.isin(["Polygon", "MultiPolygon"])
+    return shapes[is_area & (shapely.get_num_coordinates(shapes.to_numpy()) <= MOST_VERTICES)]
+
+
+def outside(lines: NDArray[np.object_], areas: NDArray[np.object_]) -> list[int]:
+    """Positions of lines that their areas do not cover."""
+    shapely.prepare(areas)
+    return [int(i) for i in np.flatnonzero(~shapely.covers(areas, lines))]
+
+
+@pytest.mark.parametrize(("file", "layer"), LAYERS)
+def test_every_valid_area_has_a_line_inside_it(file: str, layer: str | None) -> None:
+    areas = areas_of(file, layer)
+    assert len(areas) > 0
+    shapes, geographic = areas.to_numpy(), areas.crs.is_geographic
+    found, problems = collapse(shapes, on_error="report", geographic=geographic)
+    is_valid = shapely.is_valid(shapes)
+    assert all(p.reason for p in problems)
+    refused = [p for p in problems if p.status == "refused"]
+    assert not [p for p in refused if is_valid[p.index]]
+    assert (~shapely.is_missing(found) | ~is_valid).all()
+    assert outside(found[is_valid], shapes[is_valid]) == []
+    assert list(np.flatnonzero(~shapely.is_simple(found[is_valid]))) == []
+    parts = shapely.get_num_geometries(found[is_valid])
+    assert (parts == shapely.get_num_geometries(shapes[is_valid])).all()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"count": 50},
+        {"skip": None, "end_clearance": None},
+        {"ends": "main"},
+        {"ends": None, "end_clearance": "station"},
+    ],
+)
+def test_slopes_have_lines_by_every_rule(options: dict[str, Any]) -> None:
+    areas = areas_of("pl_bdot500_opole_west.gpkg", "skarpa").to_numpy()
+    areas = areas[shapely.is_valid(areas)]
+    lines = collapse(areas, **options)
+    assert outside(lines, areas) == []
+    assert shapely.is_simple(lines).all()
+
+
+def test_the_stress_set_ends_in_lines_or_reasons() -> None:
+    areas = geopandas.read_parquet(FOLDER / "stress_invalid_polygons.parquet").geometry.to_numpy()
+    lines, problems = collapse(areas, on_error="report")
+    reasons = {p.index: p.reason for p in problems if p.status == "refused"}
+    for i, (area, line) in enumerate(zip(areas, lines, strict=True)):
+        assert (line is None) == (i in reasons or area is None), i
+        if line is None or line.is_empty:
+            continue
+        assert line.is_simple, i
+        if area.is_valid:
+            assert area.covers(line), i
+    assert not [i for i in reasons if areas[i].is_valid]
