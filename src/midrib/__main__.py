@@ -2,7 +2,9 @@
 
 import signal
 import sys
+import traceback
 import warnings
+from tempfile import NamedTemporaryFile
 
 from midrib.errors import MidribError
 
@@ -22,10 +24,20 @@ def main() -> None:
         app(prog_name="midrib")
     except MidribError as error:
         leave(str(error), WRONG_USAGE)
+    except Exception as error:  # a bug, whatever it is
+        leave(f"{type(error).__name__}: {error}\n{report_of(error)}", WRONG_USAGE)
     except SystemExit as ended:
         if ended.code == INTERRUPTED:
             leave("interrupted", INTERRUPTED)
         raise
+
+
+def report_of(error: Exception) -> str:
+    """Keep the traceback of an error of our own, and say where it is."""
+    text = "".join(traceback.format_exception(error))
+    with NamedTemporaryFile("w", prefix="midrib-", suffix=".txt", delete=False) as file:
+        file.write(text)
+    return f"This is an error of midrib's own, please report it with {file.name}"
 
 
 def leave(sentence: str, code: int) -> None:

@@ -91,6 +91,24 @@ def test_our_own_errors_are_a_sentence_too(midrib: Runner, monkeypatch: pytest.M
 
 
 @pytest.mark.usefixtures("folder")
+def test_bugs_leave_their_traceback_in_a_file(
+    midrib: Runner, monkeypatch: pytest.MonkeyPatch, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    reports = tmp_path_factory.mktemp("reports")
+    monkeypatch.setattr("tempfile.tempdir", str(reports))
+    monkeypatch.setattr("midrib.cli.job.collapse", fail)
+    outcome = midrib("collapse", "in.gpkg", "out.gpkg")
+    (report,) = reports.iterdir()
+    assert outcome.code == 2
+    assert f"please report it with {report}" in outcome.err
+    assert "Traceback" not in outcome.err
+    assert "Traceback" in report.read_text()
+
+
+@pytest.mark.usefixtures("folder")
 def test_figures_without_matplotlib_name_the_command_to_install_it(
     midrib: Runner, monkeypatch: pytest.MonkeyPatch
 ) -> None:

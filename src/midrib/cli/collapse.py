@@ -160,7 +160,7 @@ def collapse(
 
 
 def clearance(text: str, crs: str | None) -> str | float | None:
-    """The clearance at the ends: the name of a rule, None or a length."""
+    """Read the clearance at the ends: the name of a rule, None or a length."""
     from midrib.formats.units import length_in
 
     if text in CLEARANCES:

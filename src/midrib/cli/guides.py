@@ -122,7 +122,7 @@ class PlacedGuides:
 
 
 def line_of_text(text: object) -> LineString | None:
-    """A line in WKT or hexadecimal WKB, None if it is none."""
+    """Read a line in WKT or hexadecimal WKB, None if it is none."""
     try:
         read = shapely.from_wkb(text) if set(str(text)) <= HEXADECIMAL else shapely.from_wkt(text)
     except (shapely.errors.GEOSException, TypeError):
@@ -134,7 +134,7 @@ HEXADECIMAL = set("0123456789abcdefABCDEF")
 
 
 def longest_line(geometries: "Geometries") -> LineString | None:
-    """The longest line when pieces that meet are joined, None if there is none."""
+    """Return the longest line when pieces that meet are joined, None if there is none."""
     pieces = shapely.get_parts(geometries)
     pieces = pieces[shapely.get_type_id(pieces) == shapely.GeometryType.LINESTRING]
     joined = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(pieces), directed=True))
@@ -151,13 +151,13 @@ def all_geometries(path: Path, layer: str) -> "Geometries":
 
 
 def lines_of(path: Path, layer: str) -> list[LineString]:
-    """The lines of a layer, one for each feature that has any."""
+    """Read the lines of a layer, one for each feature that has any."""
     lines = (longest_line(row) for row in all_geometries(path, layer)[:, None])
     return [line for line in lines if line is not None]
 
 
 def lines_by_key(path: Path, layer: str, field: str) -> dict[object, LineString]:
-    """The line of each key; pieces with the same key are joined where they meet."""
+    """Read the line of each key; pieces with the same key are joined where they meet."""
     pieces: dict[object, list[object]] = defaultdict(list)
     with open_layer(path, layer) as source:
         if field not in source.attributes.names:

@@ -126,7 +126,7 @@ def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> No
 
 
 def numbers(values: "Floats") -> pa.Array:
-    """A column of numbers, null where they are NaN."""
+    """Make a column of numbers, null where they are NaN."""
     return pa.array(values, type=pa.float64(), from_pandas=True)
 
 

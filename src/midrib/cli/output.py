@@ -112,7 +112,7 @@ def summary(results: "Results", seconds: float) -> str:
 
 
 def length_text(length: float, unit: Unit | None) -> str:
-    """A length for people: ``12.3 km``, ``840.0 m``, ``12.0 US survey foot``, ``3.1 units``."""
+    """Write a length for people: ``12.3 km``, ``840.0 m``, ``3.1 units``."""
     if unit is None:
         return f"{length:.4g} units"
     if unit.metres == 1.0 and length >= MANY:

@@ -121,7 +121,7 @@ class Paper(NamedTuple):
 
 
 def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
-    """A sheet on which all areas find room, ``longest`` millimetres long.
+    """Return a sheet on which all areas find room, ``longest`` millimetres long.
 
     Raises
     ------
@@ -166,7 +166,7 @@ def path_of(area: Any) -> Any:
 
 
 def round_length(length: float) -> float:
-    """The largest of 1, 2, 5, 10 … that is not longer."""
+    """Return the largest of 1, 2, 5, 10 … that is not longer."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(power * max(step for step in (1.0, 2.0, 5.0) if step * power <= length))
 

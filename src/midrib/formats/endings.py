@@ -59,7 +59,7 @@ FORMATS = {
 
 
 def format_of(path: Path) -> Format:
-    """The format that a file name's ending stands for.
+    """Return the format that a file name's ending stands for.
 
     Raises
     ------

@@ -62,7 +62,7 @@ class GeoColumn(NamedTuple):
 
 
 def geo_column(metadata: dict[bytes, bytes] | None, path: Path) -> GeoColumn:
-    """The primary geometry column of a Parquet file's schema.
+    """Find the primary geometry column of a Parquet file's schema.
 
     Raises
     ------

@@ -39,7 +39,7 @@ METRE = Unit("m", 1.0)
 
 
 def length_in(text: str, crs: str | None, name: str) -> float:
-    """A length in the unit of a CRS; metres in a geographic one, and where none is written.
+    """Read a length in the unit of a CRS; in metres where that is geographic.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def length_in(text: str, crs: str | None, name: str) -> float:
 
 
 def unit_of(crs: str | None) -> Unit | None:
-    """Unit in which lengths are measured: that of the CRS, metres in a geographic one.
+    """Return the unit of lengths: that of the CRS, metres in a geographic one.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def is_geographic(crs: str | None) -> bool:
 
 
 def horizontal(crs: str | None) -> dict[str, Any]:
-    """The part of a CRS that is about the plane."""
+    """Find the part of a CRS that is about the plane."""
     part: dict[str, Any] = {} if crs is None else json.loads(crs)
     while "source_crs" in part or "components" in part:
         part = part["source_crs"] if "source_crs" in part else part["components"][0]

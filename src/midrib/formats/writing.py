@@ -51,7 +51,7 @@ def check_free(paths: Sequence[Path], name: str, *, overwrite: bool) -> None:
 
 @contextmanager
 def staged(folder: Path, stale: Sequence[Path] = ()) -> Iterator[Path]:
-    """A temporary folder inside ``folder``: what was written there moves up once all is well.
+    """Open a folder inside ``folder``: what is written there moves up once all is well.
 
     The files ``stale`` go away then, unless they are replaced. After an error or an interrupt
     nothing has moved and the temporary folder is gone.
