@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from midrib.curves.stations import StationRule, Stations
-from midrib.errors import ParameterError
+from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels.boxtree import GRAZE
 from midrib.kernels.loops import cut_loops
 from midrib.kernels.paths import join_points
@@ -361,6 +361,10 @@ def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
             break
         loops += found
         points, source = join_again(layout, beads, cut, row, source)
+    if points.shape[0] < 2:
+        x, y = beads.point[0]
+        msg = f"the curve is one point, ({x:.12g}, {y:.12g}); a line needs two"
+        raise InvalidAreaError(msg)
     return Path(points, source, height_along(layout, radii, points, source, ends), loops)
 
 

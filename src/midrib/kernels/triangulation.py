@@ -347,35 +347,43 @@ def force_segment(
 ) -> int:
     """Flip the ``count`` crossed edges until a-b is an edge; return how many edges were made.
 
-    An edge whose two triangles form no convex quadrilateral waits at the end of the queue.
+    An edge whose two triangles form no convex quadrilateral waits for its neighbours. The edges
+    are gone through to and fro as long as that helps: along a straight bank each waits for the
+    one after it, which going one way only would make quadratic. -1 if it does not end.
     """
-    capacity = crossed.size // 2
-    head, waiting, n_made = 0, count, 0
-    patience = 0
-    while waiting > 0 and patience <= waiting:
-        u, v = crossed[2 * head], crossed[2 * head + 1]
-        head = (head + 1) % capacity
-        waiting -= 1
-        e = find_side(u, v, tri, twin, out)
-        c, d = tri[previous_side(e)], tri[previous_side(twin[e])]
-        left_turn_at_d = orient(x[u], y[u], x[d], y[d], x[c], y[c]) > 0.0
-        if left_turn_at_d and orient(x[d], y[d], x[v], y[v], x[c], y[c]) > 0.0:
-            flip(e, tri, twin, segment, out)
-            patience = 0
-            ends_meet = c in (a, b) or d in (a, b)
-            side_c = orient(x[a], y[a], x[b], y[b], x[c], y[c])
-            side_d = orient(x[a], y[a], x[b], y[b], x[d], y[d])
-            if ends_meet or (side_c > 0.0) == (side_d > 0.0):
-                made[2 * n_made], made[2 * n_made + 1] = c, d
-                n_made += 1
-                continue
-            u, v = c, d
-        else:
-            patience += 1
-        tail = (head + waiting) % capacity
-        crossed[2 * tail], crossed[2 * tail + 1] = u, v
-        waiting += 1
-    return n_made if waiting == 0 else -1
+    n_made, forward = 0, True
+    for _ in range(2 * count + 16):
+        kept = 0
+        for i in range(count):
+            at = i if forward else count - 1 - i
+            put = kept if forward else count - 1 - kept
+            u, v = crossed[2 * at], crossed[2 * at + 1]
+            e = find_side(u, v, tri, twin, out)
+            c, d = tri[previous_side(e)], tri[previous_side(twin[e])]
+            if (
+                orient(x[u], y[u], x[d], y[d], x[c], y[c]) > 0.0
+                and orient(x[d], y[d], x[v], y[v], x[c], y[c]) > 0.0
+            ):
+                flip(e, tri, twin, segment, out)
+                ends_meet = c in (a, b) or d in (a, b)
+                side_c = orient(x[a], y[a], x[b], y[b], x[c], y[c])
+                side_d = orient(x[a], y[a], x[b], y[b], x[d], y[d])
+                if ends_meet or (side_c > 0.0) == (side_d > 0.0):
+                    made[2 * n_made], made[2 * n_made + 1] = c, d
+                    n_made += 1
+                    continue
+                u, v = c, d
+            crossed[2 * put], crossed[2 * put + 1] = u, v
+            kept += 1
+        if not forward:
+            for i in range(kept):
+                at = count - kept + i
+                crossed[2 * i], crossed[2 * i + 1] = crossed[2 * at], crossed[2 * at + 1]
+        forward = not forward if kept < count else True
+        count = kept
+        if count == 0:
+            return n_made
+    return -1
 
 
 @njit()

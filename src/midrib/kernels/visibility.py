@@ -44,6 +44,7 @@ __all__ = ["nearest_visible", "sees_within"]
 # or this share of the largest coordinate, whichever is more.
 TIE_OF_RADIUS = 2.0**-40
 TIE_OF_COORDINATE = 2.0**-50
+WINDOWS_PER_SIDE = 64  # rays go forward only, so that a side is looked through once a hole at most
 
 
 class Goal(NamedTuple):
@@ -238,15 +239,20 @@ def add_window(windows: Ints, count: int, side: int, right: int, left: int) -> i
 
 
 @njit()
-def first_windows(mesh: Mesh, side: int, vertex: int, windows: Ints) -> tuple[Ints, int]:
+def first_windows(
+    mesh: Mesh, side: int, vertex: int, x: float, y: float, windows: Ints
+) -> tuple[Ints, int]:
     """Return the sides that a boundary point sees without looking through another one.
 
     Of a point on a side, those of its triangle; of a vertex, the rims and outer sides of its fans.
+    In a triangle thinner than rounding the point may lie beyond a side; then it does not see it.
     """
     count = 0
     if vertex < 0:
-        for e in (side, next_side(side), previous_side(side)):
-            count = add_window(windows, count, e, mesh.tri[e], mesh.tri[next_side(e)])
+        count = add_window(windows, count, side, mesh.tri[side], mesh.tri[next_side(side)])
+        for e in (next_side(side), previous_side(side)):
+            if not is_beyond(mesh, e, x, y):
+                count = add_window(windows, count, e, mesh.tri[e], mesh.tri[next_side(e)])
         return windows, count
     door = mesh.door[vertex]
     while door >= 0:
@@ -364,8 +370,8 @@ def look(
     """
     near, near_kind, stack = view.near, view.near_kind, view.stack
     bound = bound * bound
-    count, depth = 0, 0
-    windows, n_windows = first_windows(mesh, side, vertex, view.windows)
+    count, depth, left_to_do = 0, 0, WINDOWS_PER_SIDE * mesh.tri.size
+    windows, n_windows = first_windows(mesh, side, vertex, x, y, view.windows)
     while True:
         # 1. Boundary sides make their offer; open sides that are near enough wait.
         for w in range(n_windows):
@@ -399,7 +405,8 @@ def look(
             near_kind[count] = kind
             count += 1
         # 2. The open side that came last is looked through.
-        if depth == 0:
+        left_to_do -= 1
+        if depth == 0 or left_to_do == 0:
             break
         depth -= 1
         n_windows = next_windows(
