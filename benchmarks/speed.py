@@ -36,9 +36,9 @@ WAYS = (MIDRIB, *RIVALS, *YARDSTICKS)
 MISSING, TIMES = "\N{EN DASH}", "\N{MULTIPLICATION SIGN}"
 
 ROUNDS = 7
-BUDGET = 3.0  # seconds after which a way takes no further turn at a size
+BUDGET = 2.0  # seconds after which a way takes no further turn at a size
 SHORTEST = 0.005  # seconds; faster calls are repeated until they last so long
-LONGEST = 60.0  # seconds; what a smaller size predicts to last longer is left out
+LONGEST = 30.0  # seconds; what a smaller size predicts to last longer is left out
 FIRST_GUESS = 1.5  # growth of a way that has been measured at one size only
 BATCH, SAMPLE, BATCH_VERTICES = 10_000, 200, 100
 BATCH_ROUNDS, ALL_AT_ONCE = 3, "midrib, one array call"
@@ -87,7 +87,10 @@ def measure(cells: Sequence[tuple[str, int]], rounds: int, budget: float) -> lis
         ways = [way for way in WAYS if way.name not in left_out]
         seconds = take_turns(case, ways, rounds, budget)
         measured.append(Cell(family, n, seconds, left_out, checksum(MIDRIB.run(case.area, 0.0))))
-        print(f"{family} {n:,}: midrib {milliseconds(seconds[MIDRIB.name] or math.nan)} ms")
+        print(
+            f"{family} {n:,}: midrib {milliseconds(seconds[MIDRIB.name] or math.nan)} ms",
+            flush=True,
+        )
     return measured
 
 
@@ -203,7 +206,12 @@ def measure_batch(count: int) -> dict[str, Any]:
 
 
 def measure_memory(n: int) -> dict[str, float]:
-    """Peak memory in MB that each way adds for one river, each in a process of its own."""
+    """Peak memory in MB that each way adds for one river, each in a process of its own.
+
+    Only where Linux tells it.
+    """
+    if not Path("/proc/self/status").exists():
+        return {}
     context = multiprocessing.get_context("spawn")
     peaks = {}
     for way in (MIDRIB, *RIVALS):
@@ -216,14 +224,24 @@ def measure_memory(n: int) -> dict[str, float]:
 
 def peak_memory(name: str, n: int) -> float:
     """MB by which the peak of this process grows when a river is collapsed."""
-    import resource  # not there on every system
-
     way = next(way for way in WAYS if way.name == name)
     small, case = make("river", 100), make("river", n)
     way.run(small.area, small.width)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    before = peak_so_far()
     way.run(case.area, case.width)
-    return (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024.0
+    return peak_so_far() - before
+
+
+def peak_so_far() -> float:
+    """MB of memory that this process has held at most.
+
+    Not from ``getrusage``: there a new process starts with the peak of its parent.
+    """
+    for line in Path("/proc/self/status").read_text(encoding="utf-8").splitlines():
+        if line.startswith("VmHWM:"):
+            return int(line.split()[1]) / 1024.0
+    msg = "the system does not tell the peak of a process's memory"
+    raise OSError(msg)
 
 
 def family_table(cells: Sequence[Cell]) -> str:
