@@ -11,6 +11,7 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, pull_inside, split_side
+from midrib.kernels.tables import longer, longer_ints
 from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
@@ -18,16 +19,6 @@ __all__ = ["AGAINST", "LONGER", "WITH", "divide_shell"]
 
 LONGER, WITH, AGAINST = 0, 1, 2
 HALF = 0.5
-
-
-@njit()
-def insert_one(array: Ints, at: int, value: int) -> Ints:
-    """Copy of an array of integers with one more in it."""
-    longer = np.empty(array.size + 1, np.intp)
-    longer[:at] = array[:at]
-    longer[at] = value
-    longer[at + 1 :] = array[at:]
-    return longer
 
 
 @njit()
@@ -48,13 +39,13 @@ def place_point(
         return mesh, order, side, height, k if share <= HALF else (k + 1) % n
     # The triangle's next side has moved to the new triangle, where it follows the new side.
     moved = next_side(side[k])
-    sides = insert_one(side, k + 1, new)
+    sides = longer_ints(side, k + 1, (new,))
     for i in range(sides.size):
         if sides[i] == moved:
             sides[i] = new + 1
     if height.size > 0:
-        height = np.append(height, height[a] + share * (height[b] - height[a]))
-    return split, insert_one(order, k + 1, split.x.size - 1), sides, height, k + 1
+        height = longer(height, height[a] + share * (height[b] - height[a]))
+    return split, longer_ints(order, k + 1, (split.x.size - 1,)), sides, height, k + 1
 
 
 @njit()

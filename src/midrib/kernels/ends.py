@@ -139,7 +139,13 @@ def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float,
     n = x.size
     perimeter = arc[n]
     s -= np.floor(s / perimeter) * perimeter
-    k = min(max(int(np.searchsorted(arc, s, side="right")) - 1, 0), n - 1)
+    k, above = 0, n
+    while above - k > 1:
+        middle = (k + above) // 2
+        if arc[middle] <= s:
+            k = middle
+        else:
+            above = middle
     length = arc[k + 1] - arc[k]
     share = (s - arc[k]) / length if length > 0.0 else 0.0
     j = k + 1 if k + 1 < n else 0

@@ -11,6 +11,7 @@ that run along.
 
 import numpy as np
 
+from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import orient
 from midrib.types import Floats, Ints
@@ -52,10 +53,15 @@ def last_meetings(path: Floats) -> Ints:
         a, b = path[i, along], path[i + 1, along]
         low[i], high[i] = min(a, b), max(a, b)
     last = np.full(n, -1, np.intp)
-    order = np.argsort(low)
+    # Segments in the order of their lower ends, by a heap.
+    waiting, n_waiting = np.empty(n, np.intp), 0
+    for i in range(n):
+        n_waiting = push(waiting, low, n_waiting, i)
     active = np.empty(n, np.intp)
     n_active = 0
-    for k in order:
+    while n_waiting > 0:
+        k = pop(waiting, low, n_waiting)
+        n_waiting -= 1
         kept = 0
         for m in range(n_active):
             other = active[m]
@@ -111,7 +117,8 @@ def cut_loops(path: Floats) -> tuple[Floats, Ints, int]:
     points, row = np.empty((2 * n, 2)), np.empty(2 * n, np.intp)
     if n < 3:
         points[:n] = path
-        row[:n] = np.arange(n)
+        for i in range(n):
+            row[i] = i
         return points[:n], row[:n], 0
     last = last_meetings(path)
     count, loops, i = 0, 0, 0

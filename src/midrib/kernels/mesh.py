@@ -16,6 +16,7 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import orient
+from midrib.kernels.tables import longer, longer_ints
 from midrib.kernels.triangulation import next_side, previous_side, triangulate_rings
 from midrib.types import Floats, Ints
 
@@ -136,10 +137,10 @@ def split_side(mesh: Mesh, e: int, px: float, py: float) -> tuple[Mesh, int]:
     if not is_inside or turn_a <= 0.0 or turn_b <= 0.0:
         return mesh, -1
     p, size = mesh.x.size, mesh.tri.size
-    x, y = np.append(mesh.x, px), np.append(mesh.y, py)
+    x, y = longer(mesh.x, px), longer(mesh.y, py)
     # (a, b, c) becomes (a, p, c) in place and (p, b, c) as the last triangle.
-    tri = np.append(mesh.tri, np.array([p, b, c]))
-    twin = np.append(mesh.twin, np.array([-1, -1, -1]))
+    tri = longer_ints(mesh.tri, size, (p, b, c))
+    twin = longer_ints(mesh.twin, size, (-1, -1, -1))
     tri[next_side(e)] = p
     beyond = mesh.twin[next_side(e)]
     twin[next_side(e)], twin[size + 2] = size + 2, next_side(e)

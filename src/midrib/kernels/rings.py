@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
@@ -67,11 +68,23 @@ def first_rows(x: Floats, y: Floats, offsets: Ints) -> Ints:
 @njit()
 def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
     """Order of the rings: the shell, then the holes by their leftmost vertices."""
-    order = np.arange(first.size)
-    if first.size > 2:
-        holes = first[1:]
-        by_y = np.argsort(y[holes], kind="mergesort")
-        order[1:] = 1 + by_y[np.argsort(x[holes[by_y]], kind="mergesort")]
+    n = first.size
+    order, heap, key = np.zeros(n, np.intp), np.empty(n, np.intp), np.empty(n)
+    size = 0
+    for ring in range(1, n):
+        key[ring] = x[first[ring]]
+        size = push(heap, key, size, ring)
+    for place in range(1, n):
+        ring = pop(heap, key, size)
+        size -= 1
+        # Of holes that start equally far left the lowest comes first.
+        at = place
+        while (
+            at > 1 and key[order[at - 1]] == key[ring] and y[first[order[at - 1]]] > y[first[ring]]
+        ):
+            order[at] = order[at - 1]
+            at -= 1
+        order[at] = ring
     return order
 
 
