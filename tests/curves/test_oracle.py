@@ -112,10 +112,10 @@ def everywhere(stations: Floats) -> tuple[Floats, Floats]:
 
 
 def default_count(strip: Strip) -> int:
-    """Intervals on the main curve by default: none longer than half the mean width."""
+    """Intervals on the main curve by default: none longer than the mean width."""
     outline = shapely.Polygon(strip.area.exterior)
     width = 2.0 * outline.area / (strip.main.length + strip.auxiliary.length)
-    return max(int(np.ceil(strip.main.length / (width / 2.0))), 2)
+    return max(int(np.ceil(strip.main.length / width)), 2)
 
 
 @given(strip=divided(), rule=rules)

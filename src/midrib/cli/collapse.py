@@ -62,7 +62,7 @@ def collapse(
         typer.Option(
             metavar="LENGTH",
             help="Interval of the radii: 2m, 50cm, 10ft; a plain number is in units of the CRS, "
-            "metres if it is geographic. Half the mean width unless you say otherwise.",
+            "metres if it is geographic. The mean width unless you say otherwise.",
             rich_help_panel=LINE,
         ),
     ] = None,

@@ -83,7 +83,7 @@ def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Ra
     """Place the stations on the main curve and draw the radii from them."""
     mesh = layout.mesh
     most = MOST_BY_WIDTH + MOST_BY_VERTEX * (layout.main.arc.size + layout.auxiliary.arc.size)
-    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width / 2.0, most)
+    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width, most)
     low, high = np.full(stations.arc.size, -np.inf), np.full(stations.arc.size, np.inf)
     if isinstance(clearance, int | float):
         if layout.shares_start:

@@ -155,7 +155,7 @@ def minimal_radii(
     Curve
         ``line``, and for each radius ``stations``, ``on_main`` (P), ``on_auxiliary`` (Q),
         ``points`` (S) and ``radii``. Without any of spacing, count, percent and stations the
-        interval is L / count for the smallest count that makes it at most half the mean width,
+        interval is L / count for the smallest count that makes it at most the mean width,
         but for no more than 256 stations and four for each vertex.
 
     Raises

@@ -103,18 +103,18 @@ class StationRule:
         self.skip_bays = "bays" in [item for item in items if isinstance(item, str)]
         self.skip = [item for item in items if not (isinstance(item, str) and item == "bays")]
 
-    def on(self, main: Chain, x: Floats, y: Floats, half_width: float, most: int) -> "Stations":
+    def on(self, main: Chain, x: Floats, y: Floats, at_most: float, most: int) -> "Stations":
         """Stations on one main curve, ascending; x and y are those of mesh vertices.
 
         Without any rule for the interval, and no stations given, it is the largest commensurate
-        one (L / count) not above ``half_width``, or L / ``most`` where that is more.
+        one (L / count) not above ``at_most``, or L / ``most`` where that is more.
 
         Raises
         ------
         ParameterError
             If there are none, or absurdly many.
         """
-        own = self.own(main.length, max(half_width, main.length / most))
+        own = self.own(main.length, max(at_most, main.length / most))
         tolerance = SAME_STATION * main.length
         arc, points, segment, vertex = place_stations(
             own, self.vertices, tolerance, main.arc, main.vertex, x, y
@@ -127,9 +127,9 @@ class StationRule:
             raise ParameterError(msg)
         return placed
 
-    def own(self, length: float, half_width: float) -> Floats:
+    def own(self, length: float, at_most: float) -> Floats:
         """Stations by interval and those given, on a curve of the given length."""
-        interval = self.interval(length, half_width)
+        interval = self.interval(length, at_most)
         by_interval: Floats = np.empty(0)
         if interval is not None:
             n = np.floor(length / interval * (1.0 + SAME_STATION))
@@ -148,7 +148,7 @@ class StationRule:
             raise ParameterError(msg)
         return np.union1d(by_interval, self.stations)
 
-    def interval(self, length: float, half_width: float) -> float | None:
+    def interval(self, length: float, at_most: float) -> float | None:
         """Interval on a curve of the given length, None if the rule has none."""
         if self.spacing is not None:
             return float(self.spacing)
@@ -158,7 +158,7 @@ class StationRule:
             return float(length * (self.percent / 100.0))
         if self.stations is not None:
             return None
-        return float(length / max(np.ceil(length / half_width), LEAST_COUNT))
+        return float(length / max(np.ceil(length / at_most), LEAST_COUNT))
 
     def kept(self, stations: Floats, points: Floats) -> Bools:
         """Which stations ``skip`` leaves, bays apart: those take the radii to tell."""

@@ -449,7 +449,7 @@ def sees(
 
 
 @njit()
-def nearest_seen(
+def nearest_if_seen(
     mesh: Mesh,
     goal: Goal,
     x: float,
@@ -459,17 +459,12 @@ def nearest_seen(
     low: float,
     high: float,
     reach: float,
-    guess: float,
-    bound: float,
     view: View,
-) -> tuple[View, int, float]:
-    """Nearest points of a curve that one point sees.
+) -> tuple[int, float]:
+    """Nearest points of a curve, in ``view.near``, if one point sees them.
 
-    In ``view.near``, their number, and how far the nearest point is at all.
-
-    No point farther than ``bound`` counts; ``reach`` is known to hold the nearest one (inf: not
-    known) and ``guess`` may hold the nearest one that is seen. The view comes back with larger
-    tables where it needed them.
+    Return their number, or -1 where it cannot be told or something is in the way, and how far the
+    nearest point is at all. Points farther than ``reach`` do not count.
     """
     # 1. The nearest point at all.
     slack = goal.tie if reach == np.inf else max(goal.tie, TIE_OF_RADIUS * reach)
@@ -482,7 +477,7 @@ def nearest_seen(
         goal.boxes,
         low,
         high,
-        min(reach, bound),
+        reach,
         slack,
         view.nodes,
         view.segments,
@@ -496,7 +491,9 @@ def nearest_seen(
     nearest = np.sqrt(best)
     limit = (nearest + max(goal.tie, TIE_OF_RADIUS * nearest)) ** 2
     # 2. If it is seen, and so is every point equally near, that is the answer.
-    count, doubts = 0, n_nearest < 0
+    if n_nearest < 0:
+        return -1, nearest
+    count = 0
     for k in range(n_nearest):
         if view.squares[k] > limit:
             continue
@@ -508,19 +505,11 @@ def nearest_seen(
         if share == 1.0:
             qx, qy, arc = mesh.x[b], mesh.y[b], goal.arc[j + 1]
         if not sees(mesh, goal.segment, x, y, side, vertex, j, qx, qy):
-            doubts = True
-            break
+            return -1, nearest
         view.near[count, 0], view.near[count, 1], view.near[count, 2] = qx, qy, arc
         view.near[count, 3], view.near_kind[count] = view.squares[k], view.kinds[k]
         count += 1
-    # 3. If it cannot be told, the point looks around.
-    if doubts:
-        count = 0
-        if guess < bound:
-            view, count = look(mesh, goal, x, y, side, vertex, low, high, guess, view)
-        if count == 0:
-            view, count = look(mesh, goal, x, y, side, vertex, low, high, bound, view)
-    return view, count, nearest
+    return count, nearest
 
 
 @njit(entry=True)
@@ -578,20 +567,15 @@ def nearest_visible(
             seen = (seen + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
             if low[i] > low[i - 1] or high[i] < high[i - 1]:
                 reach = np.inf
-        view, count, reach = nearest_seen(
-            mesh,
-            goal,
-            px[i],
-            py[i],
-            p_side[i],
-            p_vertex[i],
-            low[i],
-            high[i],
-            reach,
-            seen,
-            np.inf,
-            view,
+        count, reach = nearest_if_seen(
+            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], reach, view
         )
+        for bound in (seen, np.inf):
+            if count < 0:
+                view, count = look(
+                    mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], bound, view
+                )
+                count = count if count > 0 or bound == np.inf else -1
         seen = np.inf
         if count == 0:
             continue
@@ -630,19 +614,12 @@ def sees_within(
     view = new_view()
     seen = np.zeros(px.size, np.bool_)
     for i in range(px.size):
-        view, count, _ = nearest_seen(
-            mesh,
-            goal,
-            px[i],
-            py[i],
-            p_side[i],
-            p_vertex[i],
-            -np.inf,
-            np.inf,
-            np.inf,
-            np.inf,
-            bound[i],
-            view,
+        count, _ = nearest_if_seen(
+            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], -np.inf, np.inf, bound[i], view
         )
+        if count < 0:
+            view, count = look(
+                mesh, goal, px[i], py[i], p_side[i], p_vertex[i], -np.inf, np.inf, bound[i], view
+            )
         seen[i] = count > 0
     return seen
