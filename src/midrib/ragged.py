@@ -9,7 +9,7 @@ from shapely import MultiPolygon, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.kernels.rings import Rings, normalise_rings
-from midrib.types import Floats, Ints
+from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Packed", "area_of_one", "pack_areas", "place_text", "rings_of_area"]
 
@@ -20,27 +20,25 @@ class Packed(NamedTuple):
     coordinates: Floats  # (n, 2 or 3)
     ring_offsets: Ints
     area_offsets: Ints
+    has_z: Bools  # of each polygon
 
     def rings(self, i: int) -> tuple[Rings, Floats | None]:
         """Rings of polygon i in normal form, and the Z of each row or None."""
         offsets = self.ring_offsets[self.area_offsets[i] : self.area_offsets[i + 1] + 1]
         rows = self.coordinates[offsets[0] : offsets[-1]]
         rings = normalise_rings(rows, offsets - offsets[0])
-        return rings, (rows[:, 2] if rows.shape[1] > PLANAR else None)
-
-
-PLANAR = 2
+        return rings, (rows[:, 2] if self.has_z[i] else None)
 
 
 def pack_areas(polygons: NDArray[np.object_]) -> Packed:
     """Arrays of an array of Polygons, none missing or empty."""
-    has_z = bool(shapely.has_z(polygons).any())
+    has_z = shapely.has_z(polygons)
     rings, owner = shapely.get_rings(polygons, return_index=True)
-    coordinates = shapely.get_coordinates(rings, include_z=has_z)
+    coordinates = shapely.get_coordinates(rings, include_z=bool(has_z.any()))
     ring_offsets = np.zeros(rings.size + 1, dtype=np.intp)
     np.cumsum(shapely.get_num_coordinates(rings), out=ring_offsets[1:])
     area_offsets = np.searchsorted(owner, np.arange(polygons.size + 1))
-    return Packed(coordinates, ring_offsets, area_offsets)
+    return Packed(coordinates, ring_offsets, area_offsets, has_z)
 
 
 def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:

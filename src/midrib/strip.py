@@ -194,7 +194,8 @@ def divide(
             end_at(boundary, position(p, n), scale) for p, n in ((start, "start"), (end, "end"))
         )
         return lay_out_ends(boundary, first, last, scale)
-    given = end_at(boundary, position(end if start is None else start, "start"), scale)
+    value, name = (end, "end") if start is None else (start, "start")
+    given = end_at(boundary, position(value, name), scale)
     corner = given.place if given.share < HALF else (given.place + 1) % boundary.order.size
     _, other = propose_ends(boundary, scale, int(boundary.order[corner]))
     return lay_out_ends(boundary, *((other, given) if start is None else (given, other)), scale)

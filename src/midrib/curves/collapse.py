@@ -214,11 +214,14 @@ def empty_like(area: Any) -> LineString | None:
 
 def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
     """Polygons of all areas, repaired where they are not valid."""
-    is_valid = shapely.is_valid(areas)
+    is_area = np.array([isinstance(area, Polygon | MultiPolygon) for area in areas], dtype=bool)
+    only_areas = areas.copy()
+    only_areas[~is_area] = None
+    is_valid = shapely.is_valid(only_areas)
     for i, area in enumerate(areas):
         if area is None or (isinstance(area, BaseGeometry) and area.is_empty):
             continue
-        if not isinstance(area, Polygon | MultiPolygon):
+        if not is_area[i]:
             kind = getattr(area, "geom_type", type(area).__name__)
             log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
             continue

@@ -14,6 +14,7 @@ Arrays only: ``minimal_radii`` and ``collapse`` shape the answer.
 from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
+import shapely
 
 from midrib.curves.stations import StationRule, Stations
 from midrib.errors import InvalidAreaError, ParameterError
@@ -271,11 +272,14 @@ def end_points(layout: Layout, ends: EndRule) -> list[EndPoint]:
 
 def coordinates_of(point: object) -> tuple[float, float]:
     """Coordinates of a Point or of a pair of numbers."""
-    pair = np.asarray(getattr(point, "coords", [point])[0], dtype=np.float64)
-    if pair.shape not in ((2,), (3,)) or not np.isfinite(pair).all():
+    values = point if isinstance(point, tuple | list | np.ndarray) else ()
+    if isinstance(point, shapely.Point) and not point.is_empty:
+        values = (point.x, point.y)
+    is_pair = len(values) == 2 and all(isinstance(v, int | float | np.number) for v in values)
+    if not is_pair or not np.isfinite([float(v) for v in values]).all():
         msg = f"ends has {point!r}, expected a Point or two finite numbers"
         raise ParameterError(msg)
-    return float(pair[0]), float(pair[1])
+    return float(values[0]), float(values[1])
 
 
 def vertex_end(layout: Layout, v: int) -> EndPoint:
@@ -353,7 +357,7 @@ def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
     beads = string_beads(radii, ends)
     points, source = join_beads(layout, beads)
     if rule not in RULES and ends:
-        refuse_ends_outside(ends, source, beads.point.shape[0])
+        refuse_ends_outside(ends, points, source, beads.point.shape[0])
     loops = 0
     for _ in range(LOOP_ROUNDS):
         cut, row, found = cut_loops(points)
@@ -390,11 +394,11 @@ def join_again(
     return points, np.where(place < 0, place, came_from[np.maximum(place, 0)])
 
 
-def refuse_ends_outside(ends: list[EndPoint], source: Ints, count: int) -> None:
-    """Refuse end points of the caller's that are not in the area."""
+def refuse_ends_outside(ends: list[EndPoint], points: Floats, source: Ints, count: int) -> None:
+    """Refuse end points of the caller's that are not in the area, and so not on the path."""
     for name, end, row in (("first", ends[0], 0), ("second", ends[1], count - 1)):
-        equal_neighbours = count > 1 and source.size > 0
-        if row not in source and not (equal_neighbours and row == count - 1 and source[-1] >= 0):
+        is_repeat = points.size > 0 and tuple(points[-1]) == end.point
+        if row not in source and not is_repeat:
             x, y = end.point
             msg = f"the {name} of ends, ({x:.12g}, {y:.12g}), lies outside the area"
             raise ParameterError(msg)

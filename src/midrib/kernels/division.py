@@ -149,6 +149,11 @@ def divide_shell(
     is_later = places[0, 0] > places[1, 0] or (
         places[0, 0] == places[1, 0] and shares[0] > shares[1]
     )
+    shares = shares.copy()
+    if places[0, 0] == places[1, 0] and min(shares) > 0.0 and shares[0] != shares[1]:
+        # Of two ends inside one segment the earlier one's share is of what the later one leaves.
+        earlier = 1 if is_later else 0
+        shares[earlier] /= shares[1 - earlier]
     for i in (0, 1) if is_later else (1, 0):
         size = order.size
         if shares[i] > 0.0:

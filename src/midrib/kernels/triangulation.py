@@ -348,7 +348,7 @@ def force_segment(
     """Flip the ``count`` crossed edges until a-b is an edge; return how many edges were made.
 
     An edge whose two triangles form no convex quadrilateral waits for its neighbours. The edges
-    are gone through to and fro as long as that helps: along a straight bank each waits for the
+    are gone through back and forth as long as that helps: along a straight bank each waits for the
     one after it, which going one way only would make quadratic. -1 if it does not end.
     """
     n_made, forward = 0, True
