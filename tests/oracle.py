@@ -246,10 +246,15 @@ def stations_by(
 
 
 def touched(main: LineString, area: Polygon) -> list[float]:
-    """Stations at which holes touch the main curve."""
-    corners = [shapely.Point(xy) for ring in area.interiors for xy in ring.coords]
-    on_main = [corner for corner in corners if corner.distance(main) <= 1e-14 * main.length]
-    return [float(main.project(corner)) for corner in on_main]
+    """Stations at which holes touch the main curve, exactly."""
+    corners = {corner for ring in area.interiors for corner in exact_points(ring)}
+    on_main = [
+        shapely.Point(float(corner[0]), float(corner[1]))
+        for a, b in pairwise(exact_points(main))
+        for corner in corners
+        if turn_of(a, b, corner) == 0 and 0 <= share_along(a, b, corner) <= 1
+    ]
+    return [float(main.project(point)) for point in on_main]
 
 
 def run_length(curve: LineString, *, backwards: bool = False) -> float:

@@ -68,7 +68,7 @@ def test_a_u_ends_in_the_caps_of_both_arms() -> None:
 
 
 def test_a_hook_ends_in_its_caps() -> None:
-    assert ends_of(NAMED["hook"]) == [((0, 0), (0, 1)), ((1, 3), (2, 3))]
+    assert ends_of(NAMED["hook"]) == [((0, 0), (0, 1)), ((1, 2.5), (2, 2.5))]
 
 
 @pytest.mark.parametrize("angle", [1.0, 3.0, 5.5])

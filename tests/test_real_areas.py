@@ -86,7 +86,7 @@ def test_every_valid_area_has_a_line_inside_it(file: str, layer: str | None) -> 
         {"count": 50},
         {"skip": None, "end_clearance": None},
         {"ends": "main"},
-        {"ends": None, "end_clearance": "station"},
+        {"end_clearance": "station"},
     ],
 )
 def test_slopes_have_lines_by_every_rule(options: dict[str, Any]) -> None:

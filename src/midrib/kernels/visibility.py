@@ -245,7 +245,8 @@ def first_windows(
     """Return the sides that a boundary point sees without looking through another one.
 
     Of a point on a side, those of its triangle; of a vertex, the rims and outer sides of its fans.
-    In a triangle thinner than rounding the point may lie beyond a side; then it does not see it.
+    In a triangle thinner than rounding the point may lie beyond a side; then it looks out of the
+    triangle there.
     """
     count = 0
     if vertex < 0:
@@ -253,6 +254,13 @@ def first_windows(
         for e in (next_side(side), previous_side(side)):
             if not is_beyond(mesh, e, x, y):
                 count = add_window(windows, count, e, mesh.tri[e], mesh.tri[next_side(e)])
+                continue
+            f = mesh.twin[e]
+            if f < 0:
+                continue
+            for g in (next_side(f), previous_side(f)):
+                if not is_beyond(mesh, g, x, y):
+                    count = add_window(windows, count, g, mesh.tri[g], mesh.tri[next_side(g)])
         return windows, count
     door = mesh.door[vertex]
     while door >= 0:
