@@ -201,6 +201,17 @@ def test_radii_tie_where_p_is_as_far_from_two_walls() -> None:
     curve = pure(strip, stations=[1.0, 2.0, 3.0], vertices=False)
     assert curve.stations.tolist() == [1.0, 2.0, 2.0, 3.0]
     assert curve.on_auxiliary.tolist() == [[0, 0], [0, 0], [4, 0], [4, 0]]
+    assert curve.jumps.tolist() == [2.0]
+
+
+def test_jumps_are_between_the_stations_where_q_leaps() -> None:
+    """Over a slot in the far bank Q goes round one of its corners to the other."""
+    strip = strip_of("0 0, 10 0", "0 1, 4 1, 4 5, 6 5, 6 1, 10 1")
+    curve = pure(strip, stations=np.arange(0.5, 10.0), vertices=False)
+    assert curve.jumps.tolist() == [5.0]
+    tied = pure(strip, stations=[3.0, 5.0, 7.0], vertices=False)
+    assert tied.on_auxiliary.tolist() == [[3, 1], [4, 1], [6, 1], [7, 1]]
+    assert tied.jumps.tolist() == [5.0]
 
 
 def test_hidden_nearest_point_is_passed_over() -> None:
