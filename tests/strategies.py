@@ -155,7 +155,36 @@ def with_holes(draw: st.DrawFn) -> Polygon:
         if better.is_valid:
             area = better
     assume(len(area.interiors) > 0)
+    assume(touches_or_keeps_off(area))
     return area
+
+
+def touches_or_keeps_off(area: Polygon) -> bool:
+    """Whether no ring is nearer to another than rounding can tell, unless it touches it exactly.
+
+    A point of the main curve is rounded; what it sees past a corner that is one unit in the last
+    place away is up to that rounding.
+    """
+    rings = [area.exterior, *area.interiors]
+    size = float(np.ptp(np.array(area.exterior.coords), axis=0).max())
+    vertices = [shapely.points(np.array(ring.coords)) for ring in rings]
+    gaps = np.concatenate(
+        [
+            shapely.distance(vertices[i], ring)
+            for i in range(len(rings))
+            for ring in rings
+            if ring is not rings[i]
+        ]
+    )
+    exact = np.concatenate(
+        [
+            shapely.intersects(vertices[i], ring)
+            for i in range(len(rings))
+            for ring in rings
+            if ring is not rings[i]
+        ]
+    )
+    return bool((exact | (gaps > 1e-9 * size)).all())
 
 
 def drawn_hole(draw: st.DrawFn, area: Polygon) -> Polygon | None:
