@@ -168,23 +168,12 @@ def touches_or_keeps_off(area: Polygon) -> bool:
     rings = [area.exterior, *area.interiors]
     size = float(np.ptp(np.array(area.exterior.coords), axis=0).max())
     vertices = [shapely.points(np.array(ring.coords)) for ring in rings]
-    gaps = np.concatenate(
-        [
-            shapely.distance(vertices[i], ring)
-            for i in range(len(rings))
-            for ring in rings
-            if ring is not rings[i]
-        ]
-    )
-    exact = np.concatenate(
-        [
-            shapely.intersects(vertices[i], ring)
-            for i in range(len(rings))
-            for ring in rings
-            if ring is not rings[i]
-        ]
-    )
-    return bool((exact | (gaps > 1e-9 * size)).all())
+    for i, ring in enumerate(rings):
+        for other in vertices[:i] + vertices[i + 1 :]:
+            exact, gaps = shapely.intersects(other, ring), shapely.distance(other, ring)
+            if not (exact | (gaps > 1e-9 * size)).all():
+                return False
+    return True
 
 
 def drawn_hole(draw: st.DrawFn, area: Polygon) -> Polygon | None:

@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
-from hypothesis import Phase, assume, given, note, settings
+from hypothesis import assume, given, note, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
@@ -14,6 +14,7 @@ from shapely.affinity import affine_transform, scale, translate
 
 from midrib import Curve, Strip, collapse, minimal_radii, split
 from midrib.errors import InvalidAreaError
+from tests.oracle import Referee
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas, divided, ribbons, simple_areas, star_shaped, tangled, with_holes
 
@@ -39,6 +40,16 @@ def generic(strip: Strip, n: int) -> Floats:
     return shares * float(strip.main.length)
 
 
+def decided(strip: Strip, stations: Floats) -> Floats:
+    """Stations whose radius does not hang on a sight exactly along a wall or through a corner."""
+    referee = Referee(strip.area, strip.auxiliary)
+    answers = [referee.look(np.array(strip.main.interpolate(s).coords[0][:2])) for s in stations]
+    doubts = np.array([answer.upper - answer.lower for answer in answers])
+    sure = stations[doubts < 1e-6 * referee.size]
+    assume(sure.size > 0)
+    return np.asarray(sure)
+
+
 def moved(strip: Strip, move: Callable[[object], object]) -> Strip:
     """The strip of the moved curves and area."""
     return Strip(*(move(g) for g in (strip.main, strip.auxiliary, strip.area)))
@@ -52,9 +63,8 @@ def check_radii(found: Curve, expected: Curve, points: Floats, bound: float) -> 
     assert found.points == pytest.approx(points[2], abs=bound)
 
 
-@pytest.mark.xfail(reason="sights exactly along a wall are decided by rounding", strict=False)
 @given(strip=divided(), degrees=st.floats(0.0, 360.0), mirrored=st.booleans())
-@settings(max_examples=150, phases=[Phase.generate])
+@settings(max_examples=150)
 def test_curve_turns_and_mirrors_with_its_area(
     strip: Strip, degrees: float, mirrored: bool
 ) -> None:
@@ -67,7 +77,7 @@ def test_curve_turns_and_mirrors_with_its_area(
 
     turned_area = move(strip.area)
     assume(turned_area.is_valid)  # type: ignore[attr-defined]
-    stations = generic(strip, 12)
+    stations = decided(strip, generic(strip, 12))
     options = {"vertices": False, "end_clearance": None}
     curve = seen(strip, stations=stations, **options)
     turned = seen(moved(strip, move), stations=stations * (1.0 - 1e-15), **options)
@@ -76,9 +86,6 @@ def test_curve_turns_and_mirrors_with_its_area(
     check_radii(turned, curve, points, 1e-9 * size)
 
 
-@pytest.mark.xfail(
-    reason="an end rebuilt inside a segment may move by one unit in the last place", strict=False
-)
 @given(
     strip=divided(),
     power=st.integers(-200, 200),
@@ -86,11 +93,12 @@ def test_curve_turns_and_mirrors_with_its_area(
     clearance=st.sampled_from([None, "station", "proportional", 0.25]),
     ends=st.sampled_from(["main", "caps", None]),
 )
-@settings(max_examples=150, phases=[Phase.generate])
+@settings(max_examples=150)
 def test_doubling_is_exact(
     strip: Strip, power: int, share: float, clearance: object, ends: object
 ) -> None:
     factor = 2.0**power
+    strip = moved(strip, lambda g: g)
     spacing = share * strip.main.length
     larger = moved(strip, lambda g: scale(g, factor, factor, origin=(0, 0)))
     scaled = clearance * factor if isinstance(clearance, float) else clearance
@@ -103,7 +111,7 @@ def test_doubling_is_exact(
 
 
 @given(area=areas, power=st.integers(-200, 200))
-@settings(max_examples=150, phases=[Phase.generate])
+@settings(max_examples=150)
 def test_doubling_is_exact_for_proposed_ends_too(area: Polygon, power: int) -> None:
     factor = 2.0**power
     line = collapse(area)
@@ -112,7 +120,7 @@ def test_doubling_is_exact_for_proposed_ends_too(area: Polygon, power: int) -> N
 
 
 @given(strip=divided(oblique))
-@settings(max_examples=100, phases=[Phase.generate])
+@settings(max_examples=100)
 def test_radii_far_from_the_origin_are_the_same_within_rounding(strip: Strip) -> None:
     shifted_area = translate(strip.area, *FAR)
     assume(shifted_area.is_valid)
@@ -145,7 +153,7 @@ def rewritten(area: Polygon, start: int, *, turned: bool) -> Polygon:
 
 
 @given(area=areas, start=st.integers(1, 30), turned=st.booleans())
-@settings(max_examples=200, phases=[Phase.generate])
+@settings(max_examples=200)
 def test_rings_may_start_anywhere_and_run_either_way(
     area: Polygon, start: int, turned: bool
 ) -> None:
@@ -172,9 +180,8 @@ def enriched(line: LineString, *, closed: bool = False) -> LineString:
     return LineString(np.concatenate(rows if not closed else rows[1:]))
 
 
-@pytest.mark.xfail(reason="sights exactly along a wall are decided by rounding", strict=False)
 @given(strip=divided(tangled()))
-@settings(max_examples=150, phases=[Phase.generate])
+@settings(max_examples=150)
 def test_repeated_and_collinear_vertices_change_no_radius(strip: Strip) -> None:
     ring = np.array(strip.area.exterior.coords)
     assume(np.array_equal(ring, np.round(ring)))
@@ -182,9 +189,10 @@ def test_repeated_and_collinear_vertices_change_no_radius(strip: Strip) -> None:
     assume(np.array_equal(ends, np.round(ends)))
     shell = enriched(LineString(ring)).coords
     rich = Strip(enriched(strip.main), enriched(strip.auxiliary), Polygon(shell))
-    stations = generic(strip, 9)
-    curve = seen(strip, stations=stations, vertices=False)
-    richer = seen(rich, stations=stations, vertices=False)
+    stations = decided(strip, generic(strip, 9))
+    options = {"vertices": False, "end_clearance": None}
+    curve = seen(strip, stations=stations, **options)
+    richer = seen(rich, stations=stations, **options)
     points = np.stack([curve.on_main, curve.on_auxiliary, curve.points])
     check_radii(richer, curve, points, 1e-12 * 40.0)
 
@@ -204,7 +212,7 @@ def is_decided(free: Curve) -> bool:
     vertices=st.booleans(),
     clearance=st.sampled_from([None, "station", "proportional"]),
 )
-@settings(max_examples=150, phases=[Phase.generate])
+@settings(max_examples=150)
 def test_reversing_the_main_curve_reverses_the_curve(
     strip: Strip, rule: dict[str, float], vertices: bool, clearance: str | None
 ) -> None:
@@ -222,7 +230,7 @@ def test_reversing_the_main_curve_reverses_the_curve(
 
 
 @given(some=st.lists(areas, min_size=1, max_size=5))
-@settings(max_examples=60, phases=[Phase.generate])
+@settings(max_examples=60)
 def test_an_array_gives_what_each_area_gives_alone(some: list[Polygon]) -> None:
     lines = collapse(some)
     for line, area in zip(lines, some, strict=True):
@@ -230,7 +238,7 @@ def test_an_array_gives_what_each_area_gives_alone(some: list[Polygon]) -> None:
 
 
 @given(some=st.lists(areas, min_size=2, max_size=4))
-@settings(max_examples=60, phases=[Phase.generate])
+@settings(max_examples=60)
 def test_parts_give_what_each_gives_alone(some: list[Polygon]) -> None:
     apart = [translate(area, 1000.0 * i) for i, area in enumerate(some)]
     lines = collapse(MultiPolygon(apart))
@@ -299,7 +307,7 @@ def test_a_geographic_crs_is_noticed() -> None:
 
 
 @given(area=st.one_of(simple_areas, with_holes()))
-@settings(max_examples=60, phases=[Phase.generate])
+@settings(max_examples=60)
 def test_split_and_collapse_agree(area: Polygon) -> None:
     """``collapse`` is ``minimal_radii`` of ``split`` with other defaults."""
     curve = minimal_radii(split(area), ends="caps", skip="bays")

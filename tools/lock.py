@@ -17,7 +17,8 @@ def compile_to(target: Path, requirements: list[str], *, hashes: bool) -> None:
         source.write_text("\n".join(requirements), encoding="utf-8")
         options = ["--no-header", "--no-emit-index-url", "--no-emit-trusted-host"]
         options += ["--no-emit-find-links", "--no-annotate"]
-        options += ["--allow-unsafe", "--strip-extras", "--quiet"]
+        # An extra that a package asks for counts as pinned only where the lock names it.
+        options += ["--allow-unsafe", "--no-strip-extras", "--quiet"]
         options += ["--generate-hashes"] if hashes else []
         subprocess.run(
             [sys.executable, "-m", "piptools", "compile", *options, "-o", str(target), str(source)],

@@ -6,9 +6,11 @@ import numpy as np
 
 from midrib.kernels import ends as kernel
 from midrib.layout import Boundary, Layout, Main, Scale, lay_out
-from midrib.types import Floats
+from midrib.types import Floats, Ints
 
-__all__ = ["End", "end_at", "lay_out_ends", "propose_ends"]
+__all__ = ["End", "end_at", "end_far_from", "lay_out_ends", "lay_out_proposed"]
+
+HALF = 0.5
 
 
 @dataclass(frozen=True)
@@ -33,16 +35,23 @@ class End:
         return End(self.other, self.place, self.share)
 
 
-def propose_ends(boundary: Boundary, scale: Scale, source: int = -1) -> tuple[End, End]:
-    """Return an area's two ends; the mesh vertex ``source``, if it is given, is the first one."""
-    places, shares = kernel.propose_ends(
+def lay_out_proposed(boundary: Boundary, scale: Scale) -> Layout:
+    """Divide an area at the two ends that its shape proposes."""
+    return lay_out(boundary, *proposed(boundary, scale, -1), scale)
+
+
+def end_far_from(boundary: Boundary, given: End, scale: Scale) -> End:
+    """Propose the end of an area that is farthest from a given one."""
+    corner = given.place if given.share < HALF else (given.place + 1) % boundary.order.size
+    places, shares = proposed(boundary, scale, int(boundary.order[corner]))
+    return End(int(places[1, 0]), int(places[1, 1]), float(shares[1]))
+
+
+def proposed(boundary: Boundary, scale: Scale, source: int) -> tuple[Ints, Floats]:
+    """Return the places of two ends; the mesh vertex ``source``, if any, is the first one."""
+    return kernel.propose_ends(
         boundary.mesh, boundary.order, boundary.n_shell, source, not boundary.has_holes, *scale
     )
-    first, second = (
-        End(int(pair[0]), int(pair[1]), float(share))
-        for pair, share in zip(places, shares, strict=True)
-    )
-    return first, second
 
 
 def lay_out_ends(

@@ -5,6 +5,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from midrib.errors import InvalidAreaError, InvariantError
+from midrib.kernels.chain import Chain
 from midrib.kernels.division import AGAINST, LONGER, WITH, divide_shell
 from midrib.kernels.mesh import Mesh, mesh_rings
 from midrib.kernels.rings import Rings
@@ -12,7 +13,6 @@ from midrib.types import Floats, Ints
 
 __all__ = [
     "Boundary",
-    "Chain",
     "EndPoint",
     "Layout",
     "Main",
@@ -25,19 +25,6 @@ Scale = tuple[float, float]  # length of one unit of x and of y
 Main = Literal["longer", "with", "against"]
 RULES = {"longer": LONGER, "with": WITH, "against": AGAINST}
 NO_HEIGHT = np.empty(0)
-
-
-class Chain(NamedTuple):
-    """One curve: m + 1 mesh vertices, the m boundary sides between them, and arc lengths."""
-
-    vertex: Ints
-    side: Ints
-    arc: Floats
-
-    @property
-    def length(self) -> float:
-        """Length of the whole curve."""
-        return float(self.arc[-1])
 
 
 class Boundary(NamedTuple):
@@ -67,7 +54,6 @@ class Layout(NamedTuple):
     mesh: Mesh
     main: Chain
     auxiliary: Chain
-    target: Ints  # for each half-edge the auxiliary segment on it, or -1
     middle: tuple[EndPoint, EndPoint]  # halfway between the two curves' starts, and their ends
     scale: Scale
     height: Floats | None
@@ -138,34 +124,32 @@ def lay_out(
     InvalidAreaError
         If the ends are one point.
     """
-    height = NO_HEIGHT if boundary.height is None else boundary.height
-    is_divided, mesh, height, middle, middle_at, v_m, s_m, a_m, v_a, s_a, a_a, target, width = (
-        divide_shell(
-            boundary.mesh,
-            boundary.order,
-            boundary.side,
-            height,
-            places,
-            shares,
-            RULES[main],
-            *scale,
-        )
+    divided = divide_shell(
+        boundary.mesh,
+        boundary.order,
+        boundary.side,
+        NO_HEIGHT if boundary.height is None else boundary.height,
+        places,
+        shares,
+        RULES[main],
+        *scale,
     )
-    if not is_divided:
-        x, y, _ = middle[0]
+    if not divided.is_divided:
+        x, y, _ = divided.middle[0]
         msg = f"start and end are the same point of the boundary, ({x:.12g}, {y:.12g})"
         raise InvalidAreaError(msg)
     start, end = (
         EndPoint((x, y), (x, y), side, vertex, z)
-        for (x, y, z), (side, vertex) in zip(middle.tolist(), middle_at.tolist(), strict=True)
+        for (x, y, z), (side, vertex) in zip(
+            divided.middle.tolist(), divided.middle_at.tolist(), strict=True
+        )
     )
     return Layout(
-        mesh,
-        Chain(v_m, s_m, a_m),
-        Chain(v_a, s_a, a_a),
-        target,
+        divided.mesh,
+        divided.main,
+        divided.auxiliary,
         (start, end),
         scale,
-        height if height.size else None,
-        width,
+        divided.height if divided.height.size else None,
+        divided.mean_width,
     )

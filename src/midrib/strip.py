@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
-from midrib.ends import End, end_at, lay_out_ends, propose_ends
+from midrib.ends import End, end_at, end_far_from, lay_out_ends, lay_out_proposed
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.layout import Boundary, Layout, Scale, boundary_of
 from midrib.ragged import area_of_one, place_text, rings_of_area
@@ -20,7 +20,6 @@ __all__ = ["PLANE", "Position", "Strip", "divide", "split"]
 Position: TypeAlias = "shapely.Point | tuple[float, float]"
 PLANE: Scale = (1.0, 1.0)
 MIN_POINTS, MIN_RING = 2, 3
-HALF = 0.5
 ON_BOUNDARY = 1e-9  # a curve is on the boundary if it is this near, as a share of the extent
 
 
@@ -188,7 +187,7 @@ def divide(
             raise ParameterError(msg)
         return divide_along(boundary, checked_curve(along, "along"), scale)
     if start is None and end is None:
-        return lay_out_ends(boundary, *propose_ends(boundary, scale), scale)
+        return lay_out_proposed(boundary, scale)
     if start is not None and end is not None:
         first, last = (
             end_at(boundary, position(p, n), scale) for p, n in ((start, "start"), (end, "end"))
@@ -196,8 +195,7 @@ def divide(
         return lay_out_ends(boundary, first, last, scale)
     value, name = (end, "end") if start is None else (start, "start")
     given = end_at(boundary, position(value, name), scale)
-    corner = given.place if given.share < HALF else (given.place + 1) % boundary.order.size
-    _, other = propose_ends(boundary, scale, int(boundary.order[corner]))
+    other = end_far_from(boundary, given, scale)
     return lay_out_ends(boundary, *((other, given) if start is None else (given, other)), scale)
 
 

@@ -10,7 +10,6 @@ from midrib.kernels.boxtree import FOOT, LIMIT, VERTEX, box_tree, nearest_on_cha
 
 Floats = NDArray[np.float64]
 pairs = st.tuples(st.integers(-20, 20), st.integers(-20, 20))
-ROOM = 256
 
 
 def chain_of(points: list[tuple[int, int]]) -> tuple[Floats, Floats, Floats]:
@@ -23,25 +22,18 @@ def chain_of(points: list[tuple[int, int]]) -> tuple[Floats, Floats, Floats]:
 def by_tree(
     p: tuple[float, float], chain: tuple[Floats, Floats, Floats], low: float, high: float,
     reach: float = np.inf,
-) -> tuple[list[float], list[int]]:  # fmt: skip
-    """Arc lengths and kinds of all points found that are as near as the nearest."""
+) -> tuple[float, int, bool] | None:  # fmt: skip
+    """Arc length and kind of the nearest point, and whether others are as near."""
     x, y, arc = chain
-    segments, kinds = np.empty(ROOM, dtype=np.intp), np.empty(ROOM, dtype=np.intp)
-    shares, squares = np.empty(ROOM), np.empty(ROOM)
     stack = np.empty(128, dtype=np.intp)
-    count = nearest_on_chain(
-        *p, x, y, arc, box_tree(x, y), low, high, reach, 1e-9,
-        stack, segments, shares, kinds, squares,
-    )  # fmt: skip
-    assert count >= 0
-    best = squares[:count].min(initial=np.inf)
-    rows = [i for i in range(count) if squares[i] <= best + 1e-9]
-    arcs = [arc[segments[i]] + shares[i] * np.diff(arc)[segments[i]] for i in rows]
-    for i in rows:
-        j, share = segments[i], shares[i]
-        place = x[j] + share * (x[j + 1] - x[j]) - p[0], y[j] + share * (y[j + 1] - y[j]) - p[1]
-        assert squares[i] == pytest.approx(place[0] ** 2 + place[1] ** 2)
-    return [float(a) for a in arcs], [int(kinds[i]) for i in rows]
+    j, share, kind, squared, is_tie = nearest_on_chain(
+        *p, x, y, arc, box_tree(x, y), low, high, reach, 1e-9, stack
+    )
+    if j < 0:
+        return None
+    place = x[j] + share * (x[j + 1] - x[j]) - p[0], y[j] + share * (y[j + 1] - y[j]) - p[1]
+    assert squared == pytest.approx(place[0] ** 2 + place[1] ** 2)
+    return float(arc[j] + share * np.diff(arc)[j]), int(kind), bool(is_tie)
 
 
 def by_force(
@@ -61,23 +53,21 @@ def by_force(
         qx, qy = x[j] + (at - arc[j]) * ux, y[j] + (at - arc[j]) * uy
         found.append((np.hypot(qx - p[0], qy - p[1]), at))
     best = min((d for d, _ in found), default=np.inf)
-    return sorted(at for d, at in found if d <= best + 1e-9)
-
-
-def distinct(arcs: list[float]) -> Floats:
-    """Sorted arc lengths, equal ones once."""
-    ordered = np.sort(np.array(arcs, dtype=np.float64))
-    return ordered[np.concatenate([[True], np.diff(ordered) > 1e-9])] if ordered.size else ordered
+    ordered = np.sort([at for d, at in found if d <= best + 1e-9])
+    return [float(at) for i, at in enumerate(ordered) if i == 0 or at > ordered[i - 1] + 1e-9]
 
 
 @given(points=st.lists(pairs, min_size=2, max_size=60), p=pairs)
 @settings(max_examples=400)
-def test_nearest_points_are_those_of_all_segments(
+def test_the_nearest_point_is_that_of_all_segments(
     points: list[tuple[int, int]], p: tuple[int, int]
 ) -> None:
     chain = chain_of([*points, (99, 99)])
-    arcs, _ = by_tree((float(p[0]), float(p[1])), chain, -np.inf, np.inf)
-    assert distinct(arcs) == pytest.approx(distinct(by_force(p, chain, -np.inf, np.inf)))
+    found = by_tree((float(p[0]), float(p[1])), chain, -np.inf, np.inf)
+    expected = by_force(p, chain, -np.inf, np.inf)
+    assert found is not None
+    assert min(abs(found[0] - at) for at in expected) < 1e-9
+    assert found[2] == (len(expected) > 1)
 
 
 @given(
@@ -91,26 +81,28 @@ def test_points_outside_the_limits_do_not_count(
 ) -> None:
     chain = chain_of([*points, (99, 99)])
     low, high = (share * chain[2][-1] for share in sorted(shares))
-    arcs, kinds = by_tree((float(p[0]), float(p[1])), chain, low, high)
-    assert distinct(arcs) == pytest.approx(distinct(by_force(p, chain, low, high)), abs=1e-6)
-    for at, kind in zip(arcs, kinds, strict=True):
-        assert low - 1e-9 <= at <= high + 1e-9
-        assert kind in (FOOT, VERTEX, LIMIT)
+    found = by_tree((float(p[0]), float(p[1])), chain, low, high)
+    expected = by_force(p, chain, low, high)
+    assert (found is None) == (not expected)
+    if found is not None:
+        assert min(abs(found[0] - at) for at in expected) < 1e-6
+        assert low - 1e-9 <= found[0] <= high + 1e-9
+        assert found[1] in (FOOT, VERTEX, LIMIT)
 
 
 def test_kinds_are_named() -> None:
     chain = chain_of([(0, 0), (10, 0)])
-    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf) == ([3.0], [FOOT])
-    assert by_tree((-3.0, 2.0), chain, -np.inf, np.inf) == ([0.0], [VERTEX])
-    assert by_tree((13.0, 2.0), chain, -np.inf, np.inf) == ([10.0], [VERTEX])
-    assert by_tree((3.0, 2.0), chain, 4.0, np.inf) == ([4.0], [LIMIT])
-    assert by_tree((9.0, 2.0), chain, 4.0, 5.0) == ([5.0], [LIMIT])
+    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf) == (3.0, FOOT, False)
+    assert by_tree((-3.0, 2.0), chain, -np.inf, np.inf) == (0.0, VERTEX, False)
+    assert by_tree((13.0, 2.0), chain, -np.inf, np.inf) == (10.0, VERTEX, False)
+    assert by_tree((3.0, 2.0), chain, 4.0, np.inf) == (4.0, LIMIT, False)
+    assert by_tree((9.0, 2.0), chain, 4.0, 5.0) == (5.0, LIMIT, False)
 
 
 def test_nothing_is_found_beyond_reach() -> None:
     chain = chain_of([(0, 0), (10, 0)])
-    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf, reach=1.9) == ([], [])
-    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf, reach=2.0) == ([3.0], [FOOT])
+    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf, reach=1.9) is None
+    assert by_tree((3.0, 2.0), chain, -np.inf, np.inf, reach=2.0) == (3.0, FOOT, False)
 
 
 @given(points=st.lists(pairs, min_size=2, max_size=70))

@@ -21,7 +21,7 @@ from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels.boxtree import GRAZE
 from midrib.kernels.loops import cut_loops
 from midrib.kernels.paths import join_points
-from midrib.kernels.visibility import nearest_visible, sees_within
+from midrib.kernels.radii import draw_radii as draw
 from midrib.layout import EndPoint, Layout
 from midrib.types import Bools, Floats, Ints
 
@@ -48,7 +48,9 @@ MOST_BY_WIDTH, MOST_BY_VERTEX = 256, 4
 # it gave the most centred lines on rivers, roads, verges and slopes.
 LOPSIDED = 1.5
 RULES = ("main", "caps", "radii")
-PER_RADIUS = ("station", "on_main", "on_auxiliary", "arc", "length", "kind", "side", "vertex")
+PER_RADIUS = (
+    "station", "on_main", "on_auxiliary", "arc", "length", "kind", "side", "vertex", "is_lopsided"
+)  # fmt: skip
 
 
 class Radii(NamedTuple):
@@ -63,6 +65,7 @@ class Radii(NamedTuple):
     kind: Ints  # (k,) FOOT, VERTEX, GRAZE or LIMIT
     side: Ints  # (k,) boundary side of P
     vertex: Ints  # (k,) mesh vertex of P, or -1
+    is_lopsided: Bools  # (k,) whether Q sees the main curve much nearer than P, if that was asked
     bays: Floats  # (b,) stations left out because they lie in bays
 
     def chosen(self, rows: Ints | Bools) -> "Radii":
@@ -91,33 +94,36 @@ def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Ra
             low[:] = clearance
         if layout.shares_end:
             high[:] = layout.auxiliary.length - clearance
-    radii = look_from(layout, stations, low, high)
-    crowded = np.empty(0, dtype=np.intp)
+    lopsided = LOPSIDED if rule.skip_bays else 0.0
+    radii = look_from(layout, stations, low, high, lopsided)
     if clearance in ("station", "proportional") and (layout.shares_start or layout.shares_end):
         crowded = np.flatnonzero(crowd_the_ends(layout, radii, clearance, low, high))
         if crowded.size:
             again = look_from(layout, stations.chosen(crowded), low[crowded], high[crowded])
             radii = replaced(radii, again, crowded)
-    return without_bays(layout, radii, crowded) if rule.skip_bays else radii
+    return without_bays(radii) if rule.skip_bays else radii
 
 
-def look_from(layout: Layout, stations: Stations, low: Floats, high: Floats) -> Radii:
+def look_from(
+    layout: Layout, stations: Stations, low: Floats, high: Floats, lopsided: float = 0.0
+) -> Radii:
     """Nearest visible points from stations, with arc lengths from low to high."""
-    x, y = np.ascontiguousarray(stations.point.T)
-    row, found, kind = nearest_visible(
-        layout.mesh, layout.target, layout.auxiliary.vertex, layout.auxiliary.arc,
-        x, y, stations.side, stations.vertex, low, high, *layout.scale,
+    found, at, is_lopsided = draw(
+        layout.mesh, layout.main, layout.auxiliary,
+        stations.point, stations.side, stations.vertex, low, high, lopsided, *layout.scale,
     )  # fmt: skip
+    row = at[:, 0]
     return Radii(
         stations.arc,
         row,
         stations.point[row],
         found[:, :2],
         found[:, 2],
-        np.sqrt(found[:, 3]),
-        kind,
+        found[:, 3],
+        at[:, 1],
         stations.side[row],
         stations.vertex[row],
+        is_lopsided,
         np.empty(0),
     )
 
@@ -135,32 +141,17 @@ def replaced(radii: Radii, again: Radii, crowded: Ints) -> Radii:
     return merged.chosen(np.argsort(merged.station, kind="stable"))
 
 
-def without_bays(layout: Layout, radii: Radii, crowded: Ints) -> Radii:
+def without_bays(radii: Radii) -> Radii:
     """Radii without those from bays and side arms of the main curve.
 
     In a bay P is far from the auxiliary curve, while Q, across the bay's mouth, has the main curve
     nearer on either side of it. Such a radius is lopsided: its middle is not between the banks.
     Stations next to a shared end are left as the end clearance has placed them.
     """
-    main, auxiliary = layout.main, layout.auxiliary
-    segment = np.searchsorted(auxiliary.arc, radii.arc, side="right") - 1
-    segment = np.minimum(segment, auxiliary.side.size - 1)
-    at_start = radii.arc == auxiliary.arc[segment]
-    at_end = radii.arc == auxiliary.arc[segment + 1]
-    vertex = np.where(at_end, auxiliary.vertex[segment + 1], -1)
-    vertex = np.where(at_start, auxiliary.vertex[segment], vertex)
-    target = np.full(layout.target.size, -1, dtype=np.intp)
-    target[main.side] = np.arange(main.side.size)
-    x, y = np.ascontiguousarray(radii.on_auxiliary.T)
-    is_lopsided = sees_within(
-        layout.mesh, target, main.vertex, main.arc,
-        x, y, auxiliary.side[segment], vertex, radii.length / LOPSIDED, *layout.scale,
-    )  # fmt: skip
     in_bay = np.zeros(radii.stations.size, dtype=np.bool_)
-    in_bay[radii.station[is_lopsided]] = True
-    in_bay[crowded] = False
+    in_bay[radii.station[radii.is_lopsided]] = True
     is_kept = ~in_bay[radii.station]
-    if not in_bay.any() or not is_kept.any():
+    if is_kept.all() or not is_kept.any():
         return radii
     kept = radii.chosen(is_kept)
     new_row = np.cumsum(~in_bay) - 1
@@ -299,19 +290,11 @@ def radius_end(layout: Layout, which: int) -> EndPoint:
     if which == -1 and layout.shares_end:
         high = auxiliary.arc[-2]
     x, y = float(layout.mesh.x[v]), float(layout.mesh.y[v])
-    _, found, _ = nearest_visible(
-        layout.mesh,
-        layout.target,
-        auxiliary.vertex,
-        auxiliary.arc,
-        np.array([x]),
-        np.array([y]),
-        np.array([side]),
-        np.array([v]),
-        np.array([low]),
-        np.array([high]),
-        *layout.scale,
-    )
+    found, _, _ = draw(
+        layout.mesh, main, auxiliary,
+        np.array([[x, y]]), np.array([side]), np.array([v]), np.array([low]), np.array([high]),
+        0.0, *layout.scale,
+    )  # fmt: skip
     if found.shape[0] == 0:
         end = "start" if which == 0 else "end"
         msg = (

@@ -175,7 +175,7 @@ def minimal_radii(
     come up where Q travels back or the area has holes.
     Nearly linear in vertices and stations. Signs are exact, so the line never leaves the area; S
     is halfway between P and Q, and as far from the main as from the auxiliary curve only where
-    the main curve is straight and parallel.
+    the main curve is straight and parallel. A sight along a wall ends where a hole touches it.
 
     References
     ----------

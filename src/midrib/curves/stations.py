@@ -11,8 +11,8 @@ import shapely
 from numpy.typing import ArrayLike
 
 from midrib.errors import ParameterError
+from midrib.kernels.chain import Chain
 from midrib.kernels.stations import place_stations
-from midrib.layout import Chain
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Skip", "StationRule", "Stations", "station_rule"]

@@ -23,7 +23,7 @@ LEAF = 4
 DEPTH = 128  # more than twice the height of any tree that fits into memory
 
 
-@njit()
+@njit(inline=True)
 def nearest_share(
     px: float,
     py: float,
@@ -77,7 +77,7 @@ def box_tree(x: Floats, y: Floats) -> Floats:
     return boxes
 
 
-@njit()
+@njit(inline=True)
 def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> float:
     """Squared distance from p to a node's box, inf for an empty one."""
     dx = max(boxes[node, 0] - px, px - boxes[node, 2], 0.0)
@@ -85,7 +85,7 @@ def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> f
     return dx * dx + dy * dy
 
 
-@njit()
+@njit(inline=True)
 def nearest_on_chain(
     px: float,
     py: float,
@@ -98,23 +98,18 @@ def nearest_on_chain(
     reach: float,
     slack: float,
     stack: Ints,
-    segments: Ints,
-    shares: Floats,
-    kinds: Ints,
-    squares: Floats,
-) -> int:
-    """Collect the nearest points on the segments of a chain.
+) -> tuple[int, float, int, float, bool]:
+    """Return the nearest point on the segments of a chain.
 
-    Those within ``reach`` that are, when found, not farther than the nearest so far by more than
-    ``slack`` (a length).
-
-    Points outside the arc lengths low..high do not count. The last four arrays take segment, share
-    of it, kind and squared distance; return how many there are, -1 if they do not have the room.
+    Its segment (-1 if there is none within ``reach``), the share of it, its kind, its squared
+    distance, and whether another point is nearly as near: by ``slack`` (a length) or less.
+    Points outside the arc lengths low..high do not count. O(log n) near the chain.
     """
     m = x.size - 1
     leaves = boxes.shape[0] // 2
-    bound = reach * reach
-    count, depth = 0, 1
+    bound, nearest, second = reach * reach, np.inf, np.inf
+    at_nearest, segment, along, what = np.inf, -1, 0.0, FOOT
+    depth = 1
     stack[0] = 1
     while depth > 0:
         depth -= 1
@@ -146,8 +141,12 @@ def nearest_on_chain(
             if d > bound:
                 continue
             bound = min(bound, (np.sqrt(d) + slack) ** 2)
-            if count == segments.size:
-                return -1
-            segments[count], shares[count], kinds[count], squares[count] = j, share, kind, d
-            count += 1
-    return count
+            # A vertex ends one segment and starts the next, but is one point, up to rounding.
+            at = arc[j] + share * (arc[j + 1] - arc[j])
+            is_same = abs(at - at_nearest) <= slack
+            if d < nearest:
+                second = second if is_same else min(second, nearest)
+                nearest, at_nearest, segment, along, what = d, at, j, share, kind
+            elif not is_same:
+                second = min(second, d)
+    return segment, along, what, nearest, second <= (np.sqrt(nearest) + slack) ** 2

@@ -7,9 +7,13 @@ cap  |                       |  cap         The shell turns left, so the lower c
  start.other             stop.place
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from midrib.kernels.chain import Chain
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, pull_inside, split_side
 from midrib.kernels.tables import longer, longer_ints
 from midrib.kernels.triangulation import next_side
@@ -19,6 +23,19 @@ __all__ = ["AGAINST", "LONGER", "WITH", "divide_shell"]
 
 LONGER, WITH, AGAINST = 0, 1, 2
 HALF = 0.5
+
+
+class Divided(NamedTuple):
+    """A shell divided at two ends."""
+
+    is_divided: bool  # False if the ends are one point
+    mesh: Mesh  # with the ends inside segments as vertices, as height
+    height: Floats
+    middle: Floats  # (2, 3) x, y and Z of the middles of the ends
+    middle_at: Ints  # (2, 2) the boundary side each is on, and the mesh vertex it is or -1
+    main: Chain
+    auxiliary: Chain
+    mean_width: float  # area between the curves over their mean length
 
 
 @njit()
@@ -54,19 +71,19 @@ def middle_of_cap(
 ) -> tuple[int, float]:
     """Segment and share of the point halfway along the shell from ``place`` on to ``other``."""
     n = order.size
-    length = 0.0
+    total = 0.0
     for round_ in range(2):
-        half, so_far = length / 2.0, 0.0
+        half, so_far = total / 2.0, 0.0
         k = place
         while k != other:
             a, b = order[k], order[(k + 1) % n]
-            step = np.hypot((mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y)
+            step = length((mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y)
             if round_ == 1 and so_far + step >= half:
                 share = (half - so_far) / step
                 return (k, share) if share < 1.0 else ((k + 1) % n, 0.0)
             so_far += step
             k = (k + 1) % n
-        length = so_far
+        total = so_far
     return place, 0.0
 
 
@@ -80,8 +97,8 @@ def chain(
     is_backward: bool,
     scale_x: float,
     scale_y: float,
-) -> tuple[Ints, Ints, Floats]:
-    """Vertices, sides and arc lengths of the shell from ``start`` on to ``stop``, or back."""
+) -> Chain:
+    """Return the shell from ``start`` on to ``stop``, or back."""
     n = order.size
     m = (stop - start) % n
     vertex, sides, arc = np.empty(m + 1, np.intp), np.empty(m, np.intp), np.zeros(m + 1)
@@ -91,8 +108,8 @@ def chain(
         sides[i] = side[(start + (m - 1 - i if is_backward else i)) % n]
         a, b = vertex[i], vertex[i + 1]
         dx, dy = (mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y
-        arc[i + 1] = arc[i] + np.hypot(dx, dy)
-    return vertex, sides, arc
+        arc[i + 1] = arc[i] + length(dx, dy)
+    return Chain(vertex, sides, arc)
 
 
 @njit()
@@ -120,7 +137,7 @@ def divide_shell(
     rule: int,
     scale_x: float,
     scale_y: float,
-) -> tuple[bool, Mesh, Floats, Floats, Ints, Ints, Ints, Floats, Ints, Ints, Floats, Ints, float]:
+) -> Divided:
     """Divide a shell at two ends.
 
     Parameters
@@ -133,16 +150,6 @@ def divide_shell(
     rule : which part is the main curve: the one that runs WITH the shell from start to stop, the
         one AGAINST it, or the LONGER
     scale_x, scale_y : lengths of one unit of x and of y
-
-    Returns
-    -------
-    is_divided : False if the ends are one point
-    mesh, height : with the ends inside segments as vertices
-    middle : (2, 3) x, y and Z of the middles of the ends
-    middle_at : (2, 2) the boundary side each is on, and the mesh vertex it is or -1
-    vertex, side, arc : of the main curve, then of the auxiliary one
-    target : for each half-edge the auxiliary segment on it, or -1
-    width : area between the curves over their mean length
     """
     ends = places.copy()
     # The later place first, so that inserting one does not move the other.
@@ -177,37 +184,10 @@ def divide_shell(
         if height.size > 0:
             middle[i, 2] = height[a] + share * (height[b] - height[a])
     is_divided = ends[0, 1] != ends[1, 0] and ends[1, 1] != ends[0, 0]
-    vertex_w, side_w, arc_w = chain(
-        mesh, order, side, ends[0, 1], ends[1, 0], False, scale_x, scale_y
-    )
-    vertex_a, side_a, arc_a = chain(
-        mesh, order, side, ends[1, 1], ends[0, 0], True, scale_x, scale_y
-    )
-    if rule == AGAINST or (rule == LONGER and arc_a[-1] > arc_w[-1]):
-        vertex_w, side_w, arc_w, vertex_a, side_a, arc_a = (
-            vertex_a,
-            side_a,
-            arc_a,
-            vertex_w,
-            side_w,
-            arc_w,
-        )
-    target = np.full(mesh.tri.size, -1, np.intp)
-    for j in range(side_a.size):
-        target[side_a[j]] = j
-    width = doubled_area(mesh, vertex_w, vertex_a, scale_x, scale_y) / (arc_w[-1] + arc_a[-1])
-    return (
-        is_divided,
-        mesh,
-        height,
-        middle,
-        middle_at,
-        vertex_w,
-        side_w,
-        arc_w,
-        vertex_a,
-        side_a,
-        arc_a,
-        target,
-        width,
-    )
+    main = chain(mesh, order, side, ends[0, 1], ends[1, 0], False, scale_x, scale_y)
+    auxiliary = chain(mesh, order, side, ends[1, 1], ends[0, 0], True, scale_x, scale_y)
+    if rule == AGAINST or (rule == LONGER and auxiliary.arc[-1] > main.arc[-1]):
+        main, auxiliary = auxiliary, main
+    doubled = doubled_area(mesh, main.vertex, auxiliary.vertex, scale_x, scale_y)
+    width = doubled / (main.arc[-1] + auxiliary.arc[-1])
+    return Divided(is_divided, mesh, height, middle, middle_at, main, auxiliary, width)

@@ -16,6 +16,7 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
@@ -69,10 +70,10 @@ def sweep(
             entered[e // 3] = 1
             across = next_side(e)
             for v in (mesh.tri[across], mesh.tri[previous_side(e)]):
-                way[v] = np.hypot((mesh.x[v] - sx) * scale_x, (mesh.y[v] - sy) * scale_y)
+                way[v] = length((mesh.x[v] - sx) * scale_x, (mesh.y[v] - sy) * scale_y)
             if mesh.twin[across] >= 0:
                 mx, my = middle_of(mesh, across)
-                cost[across] = np.hypot((mx - sx) * scale_x, (my - sy) * scale_y)
+                cost[across] = length((mx - sx) * scale_x, (my - sy) * scale_y)
                 frontier[size] = across
                 size = size + 1 if is_tree else push(frontier, cost, size, across)
             e = mesh.twin[previous_side(e)]
@@ -86,19 +87,19 @@ def sweep(
         entered[f // 3] = 1
         w = mesh.tri[previous_side(f)]
         mx, my = middle_of(mesh, e)
-        to_w = cost[e] + np.hypot((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
+        to_w = cost[e] + length((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
         for v in (mesh.tri[e], mesh.tri[f]):
             dx, dy = (mesh.x[w] - mesh.x[v]) * scale_x, (mesh.y[w] - mesh.y[v]) * scale_y
-            to_w = min(to_w, way[v] + np.hypot(dx, dy))
+            to_w = min(to_w, way[v] + length(dx, dy))
         way[w] = min(way[w], to_w)
         for side in (next_side(f), previous_side(f)):
             if mesh.twin[side] < 0 or entered[mesh.twin[side] // 3] != 0:
                 continue
             nx, ny = middle_of(mesh, side)
-            to_side = cost[e] + np.hypot((nx - mx) * scale_x, (ny - my) * scale_y)
+            to_side = cost[e] + length((nx - mx) * scale_x, (ny - my) * scale_y)
             for v in (mesh.tri[side], mesh.tri[next_side(side)]):
                 dx, dy = (nx - mesh.x[v]) * scale_x, (ny - mesh.y[v]) * scale_y
-                to_side = min(to_side, way[v] + np.hypot(dx, dy))
+                to_side = min(to_side, way[v] + length(dx, dy))
             cost[side] = to_side
             frontier[size] = side
             size = size + 1 if is_tree else push(frontier, cost, size, side)
@@ -146,8 +147,8 @@ def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float,
             k = middle
         else:
             above = middle
-    length = arc[k + 1] - arc[k]
-    share = (s - arc[k]) / length if length > 0.0 else 0.0
+    span = arc[k + 1] - arc[k]
+    share = (s - arc[k]) / span if span > 0.0 else 0.0
     j = k + 1 if k + 1 < n else 0
     return x[k] + share * (x[j] - x[k]), y[k] + share * (y[j] - y[k]), k, share
 
@@ -178,17 +179,17 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     """
     perimeter = arc[-1]
     cx, cy = x[q] - x[p], y[q] - y[p]
-    length = np.hypot(cx, cy)
-    if length <= 0.0 or 3.0 * length > perimeter:
+    span = length(cx, cy)
+    if span <= 0.0 or 3.0 * span > perimeter:
         return False
-    ax, ay, _, _ = point_at(x, y, arc, arc[p] - length / 2.0)
-    bx, by, _, _ = point_at(x, y, arc, arc[q] + length / 2.0)
+    ax, ay, _, _ = point_at(x, y, arc, arc[p] - span / 2.0)
+    bx, by, _, _ = point_at(x, y, arc, arc[q] + span / 2.0)
     ux, uy, vx, vy = x[p] - ax, y[p] - ay, x[q] - bx, y[q] - by
-    u, v = np.hypot(ux, uy), np.hypot(vx, vy)
+    u, v = length(ux, uy), length(vx, vy)
     if u <= 0.0 or v <= 0.0:
         return False
-    corner_p = abs(ux * cx + uy * cy) / (u * length) <= LEAST_CORNER
-    corner_q = abs(vx * cx + vy * cy) / (v * length) <= LEAST_CORNER
+    corner_p = abs(ux * cx + uy * cy) / (u * span) <= LEAST_CORNER
+    corner_q = abs(vx * cx + vy * cy) / (v * span) <= LEAST_CORNER
     outward_p = ux * cy - uy * cx > 0.0  # the shell turns left, so the bank comes from the right
     outward_q = vx * cy - vy * cx > 0.0
     return corner_p and corner_q and outward_p and outward_q
@@ -208,21 +209,21 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
     through = straight_run(x, y, behind, 1)
     if through != vertex:
         backward, forward = behind, through
-        length = np.hypot(x[forward] - x[backward], y[forward] - y[backward])
-        if least <= length and is_cap(x, y, arc, backward, forward):
+        span = length(x[forward] - x[backward], y[forward] - y[backward])
+        if least <= span and is_cap(x, y, arc, backward, forward):
             return backward, forward
     nearest, shortest, cap_p, cap_q = width, np.inf, -1, -1
     for step in (1, -1):
         near, way = (forward if step == 1 else backward), 0.0
         while way <= nearest:
             far = straight_run(x, y, near, step)
-            length = np.hypot(x[far] - x[near], y[far] - y[near])
+            span = length(x[far] - x[near], y[far] - y[near])
             p, q = (near, far) if step == 1 else (far, near)
-            is_better = way < nearest or length < shortest
-            if least <= length and is_better and is_cap(x, y, arc, p, q):
-                nearest, shortest, cap_p, cap_q = way, length, p, q
+            is_better = way < nearest or span < shortest
+            if least <= span and is_better and is_cap(x, y, arc, p, q):
+                nearest, shortest, cap_p, cap_q = way, span, p, q
                 break
-            near, way = far, way + length
+            near, way = far, way + span
     return cap_p, cap_q
 
 
@@ -239,10 +240,10 @@ def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
         a2x, a2y, _, _ = point_at(x, y, arc, s - 2.0 * arm)
         b2x, b2y, _, _ = point_at(x, y, arc, s + 2.0 * arm)
         ux, uy = (ax - a2x) + (bx - b2x), (ay - a2y) + (by - b2y)
-        length = np.hypot(ux, uy)
-        if length <= 0.5 * arm:
+        span = length(ux, uy)
+        if span <= 0.5 * arm:
             return s
-        ahead = ((ax - bx) * ux + (ay - by) * uy) / length
+        ahead = ((ax - bx) * ux + (ay - by) * uy) / span
         shift = min(max(ahead / 2.0, -shift_limit), shift_limit)
         s -= shift
         shift_limit /= 2.0
@@ -276,7 +277,7 @@ def shape_of_end(
     s = arc[vertex]
     ax, ay, _, _ = point_at(x, y, arc, s - arm)
     bx, by, _, _ = point_at(x, y, arc, s + arm)
-    if np.hypot(ax - bx, ay - by) < TIP_CHORD * arm:
+    if length(ax - bx, ay - by) < TIP_CHORD * arm:
         return TIP, vertex, vertex, 0.0
     # 3. Neither: the point that leaves the banks level.
     s = levelled(x, y, arc, s, min(width, arc[-1] / 8.0))
@@ -341,7 +342,7 @@ def propose_ends(
         x[i], y[i] = mesh.x[order[i]] * scale_x, mesh.y[order[i]] * scale_y
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
-        arc[i + 1] = arc[i] + np.hypot(x[j] - x[i], y[j] - y[i])
+        arc[i + 1] = arc[i] + length(x[j] - x[i], y[j] - y[i])
     pair = far_pair(mesh, n_shell, source, scale_x, scale_y, is_tree)
     a, b = pair[0], pair[1]
     a_is_right = mesh.x[a] > mesh.x[b] or (mesh.x[a] == mesh.x[b] and mesh.y[a] > mesh.y[b])

@@ -2,8 +2,9 @@
 
 Numba refuses to import a cached function when neither the package folder nor its own default
 folder is writable, and it does not notice that a function called from another file has changed.
-Both are settled here, before Numba is imported: the folder lies in the user's cache, or in the
+Both are settled here: the folder lies where NUMBA_CACHE_DIR says, in the user's cache, or in the
 temporary folder where that is read-only, and its name carries a digest of the kernels' sources.
+Numba asks for the folder when a function is decorated; other people's functions keep theirs.
 """
 
 import hashlib
@@ -12,6 +13,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
+
+import numba as nb
 
 __all__ = ["cache_folder", "njit"]
 
@@ -22,8 +25,9 @@ def cache_folder() -> Path:
     for source in sorted(Path(__file__).parent.glob("*.py")):
         digest.update(source.read_bytes())
     name = f"kernels-{digest.hexdigest()[:16]}"
-    home = os.environ.get("XDG_CACHE_HOME")
-    roots = [Path(home) if home else Path("~/.cache").expanduser(), Path(tempfile.gettempdir())]
+    named = [os.environ.get(name) for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")]
+    roots = [Path(root) for root in named if root]
+    roots += [Path("~/.cache").expanduser(), Path(tempfile.gettempdir())]
     for root in roots:
         folder = root / "midrib" / name
         try:
@@ -35,18 +39,29 @@ def cache_folder() -> Path:
     return Path(tempfile.mkdtemp(prefix="midrib-"))
 
 
-os.environ.setdefault("NUMBA_CACHE_DIR", str(cache_folder()))
-
-import numba as nb  # noqa: E402  # the folder above must be known to Numba when it is imported
-
+CACHE_FOLDER = str(cache_folder())
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
-def njit(*, entry: bool = False) -> Callable[[Kernel], Kernel]:
+def njit(*, entry: bool = False, inline: bool = False) -> Callable[[Kernel], Kernel]:
     """Compile a kernel; an ``entry`` is called from Python and kept on disk.
 
     Kernels that only other kernels call are compiled into their callers, and LLVM inlines the
-    small ones. Arithmetic stays IEEE (no ``fastmath``): the bounds of the predicates need it.
+    small ones. An ``inline`` one is inlined whatever its size: handing over every field of every
+    array takes as long as a short search. Arithmetic stays IEEE (no ``fastmath``): the bounds of
+    the predicates need it.
     """
-    compiled: Any = nb.njit(cache=entry, nogil=entry, error_model="numpy")
+
+    def compiled(kernel: Kernel) -> Kernel:
+        config: Any = nb.config
+        usual = config.CACHE_DIR
+        config.CACHE_DIR = CACHE_FOLDER
+        try:
+            dispatcher: Any = nb.njit(
+                kernel, cache=entry, nogil=entry, forceinline=inline, error_model="numpy"
+            )
+        finally:
+            config.CACHE_DIR = usual
+        return dispatcher
+
     return compiled

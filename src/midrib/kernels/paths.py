@@ -19,6 +19,7 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, contains, is_beyond, pull_inside
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
@@ -28,14 +29,18 @@ __all__ = ["join_points"]
 
 
 @njit()
-def walk(mesh: Mesh, t: int, px: float, py: float, qx: float, qy: float) -> tuple[int, int]:
-    """Go straight from p, in or before triangle t, to q.
+def walk(
+    mesh: Mesh, t: int, goal: int, px: float, py: float, qx: float, qy: float
+) -> tuple[int, int]:
+    """Go straight from p, in or before triangle t, to q, which triangle ``goal`` holds (or -1).
 
     Return the triangle that holds q and -1, or the last triangle and the boundary side in the way.
     Where the segment passes a vertex exactly, one of two ways is tried; the other may be free.
     """
     came_from = -1
     for _ in range(mesh.tri.size):
+        if t == goal:
+            return t, -1
         ahead, second = -1, -1
         for e in range(3 * t, 3 * t + 3):
             if e == came_from:
@@ -95,9 +100,9 @@ def find_sleeve(
                 continue
             a, b = mesh.tri[e], mesh.tri[next_side(e)]
             mx, my = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
-            new = so_far + np.hypot((mx - from_x) * scale_x, (my - from_y) * scale_y)
+            new = so_far + length((mx - from_x) * scale_x, (my - from_y) * scale_y)
             cost[e] = new
-            key[e] = new + np.hypot((qx - mx) * scale_x, (qy - my) * scale_y)
+            key[e] = new + length((qx - mx) * scale_x, (qy - my) * scale_y)
             size = push(heap, key, size, e)
         while size > 0:
             e = pop(heap, key, size)
@@ -119,13 +124,13 @@ def find_sleeve(
         from_x, from_y = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
         so_far = cost[e]
     goal = t
-    length = 0
+    n = 0
     while entered[t] >= 0:
-        length += 1
+        n += 1
         t = entered[t] // 3
-    sleeve = np.empty(length, np.intp)
+    sleeve = np.empty(n, np.intp)
     t = goal
-    for i in range(length - 1, -1, -1):
+    for i in range(n - 1, -1, -1):
         sleeve[i] = entered[t]
         t = entered[t] // 3
     entered[start] = -1
@@ -192,16 +197,18 @@ def pull_tight(mesh: Mesh, sleeve: Ints, px: float, py: float, qx: float, qy: fl
 @njit()
 def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
     """Return the triangle around vertex v through which the ray from v to q leaves; -1 if none."""
+    x, y = mesh.x[v], mesh.y[v]
     door = mesh.door[v]
     while door >= 0:
         e = door
+        a = mesh.tri[next_side(e)]
+        by_right = orient(x, y, mesh.x[a], mesh.y[a], qx, qy)
         while e >= 0:
-            a, b = mesh.tri[next_side(e)], mesh.tri[previous_side(e)]
-            x, y = mesh.x[v], mesh.y[v]
-            if orient(x, y, mesh.x[a], mesh.y[a], qx, qy) >= 0.0 and (
-                orient(x, y, mesh.x[b], mesh.y[b], qx, qy) <= 0.0
-            ):
+            b = mesh.tri[previous_side(e)]
+            by_left = orient(x, y, mesh.x[b], mesh.y[b], qx, qy)
+            if by_right >= 0.0 and by_left <= 0.0:
                 return e // 3
+            by_right = by_left
             e = mesh.twin[previous_side(e)]
         door = mesh.other_door[door]
     return -1
@@ -247,7 +254,7 @@ def locate_from(
     t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
     end = side // 3
     if t >= 0 and (vertex >= 0 or not is_beyond(mesh, side, qx, qy)):
-        end, obstacle = walk(mesh, t, px, py, qx, qy)
+        end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
         if obstacle == -1:
             return end, qx, qy
     for t in (end, near):
@@ -309,7 +316,7 @@ def join_points(
         turns = np.empty(0, np.intp)
         end, obstacle = -1, -2
         if t >= 0:
-            end, obstacle = walk(mesh, t, from_x, from_y, qx, qy)
+            end, obstacle = walk(mesh, t, -1, from_x, from_y, qx, qy)
         if obstacle != -1:
             end, qx, qy = locate_from(
                 mesh,

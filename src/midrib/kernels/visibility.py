@@ -1,20 +1,11 @@
-r"""The nearest visible point: from P on the main curve to the auxiliary curve.
+"""What a point P of the boundary sees of a curve: one point of it, or the nearest.
 
-The nearest point of the whole auxiliary curve, if P sees it, is the answer: a tree of boxes finds
-it and a walk along PQ proves that nothing is in the way. Where something is, P looks out of its
-triangle. Through each open side goes a *window*, the part of the side that P sees between two mesh
-vertices; behind it lies one more triangle, whose other two sides get what is left of the window.
-A side farther than the best point so far is not looked through. A side on the auxiliary curve
-offers the point of its visible part that is nearest to P.
+A walk from P to Q proves that nothing is in the way. To find the nearest Q, P looks around, window
+by window, out to the nearest point so far. A side on the curve offers the point of its visible part
+that is nearest to P.
 
-        left                        P        a point of the main curve
-          \\      .                  E        a point of the auxiliary curve that P sees
-           \\   .   \\  E             window   the rays from P by ``right`` and ``left``
-            \\.......\\......
-           P --------- right ---
-
-Kinds of E: FOOT of a perpendicular, VERTEX, GRAZE (the view ends at a vertex that is not on the
-auxiliary curve), LIMIT (the end clearance cuts the segment there).
+Kinds of Q: FOOT of a perpendicular, VERTEX, GRAZE (the view ends at a vertex that is not on the
+curve), LIMIT (the end clearance cuts the segment there).
 Distances are in the metric scale_x dx, scale_y dy; sides of lines do not depend on it.
 """
 
@@ -22,70 +13,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.boxtree import (
-    DEPTH,
-    GRAZE,
-    LIMIT,
-    VERTEX,
-    box_tree,
-    nearest_on_chain,
-    nearest_share,
-)
+from midrib.kernels.boxtree import DEPTH, GRAZE, LIMIT, VERTEX, nearest_share
+from midrib.kernels.chain import Goal, slack_of
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.predicates import orient
-from midrib.kernels.triangulation import next_side, previous_side
-from midrib.types import Bools, Floats, Ints
+from midrib.kernels.triangulation import next_side
+from midrib.kernels.windows import Spot, add_window, first_windows, next_windows, with_room
+from midrib.types import Floats, Ints
 
-__all__ = ["nearest_visible", "sees_within"]
+__all__ = ["View", "keep_ties", "look", "new_view", "sees"]
 
-# Two radii are a tie if they differ by less than rounding can explain: this share of the radius,
-# or this share of the largest coordinate, whichever is more.
-TIE_OF_RADIUS = 2.0**-40
-TIE_OF_COORDINATE = 2.0**-50
 WINDOWS_PER_SIDE = 64  # rays go forward only, so that a side is looked through once a hole at most
 
 
-class Goal(NamedTuple):
-    """A curve to look for: its segments on half-edges, its vertices, and a tree of boxes."""
-
-    segment: Ints  # for each half-edge the curve's segment on it, or -1
-    vertex: Ints
-    arc: Floats
-    x: Floats  # in lengths, as y and boxes
-    y: Floats
-    boxes: Floats
-    scale_x: float
-    scale_y: float
-    tie: float  # radii that differ by less than this are equal
-
-
 class View(NamedTuple):
-    """Tables to work in, kept from one point to the next."""
+    """Points found, and tables to work in that are kept from one P to the next."""
 
-    near: Floats  # points found: x, y, arc length, squared distance
-    near_kind: Ints
-    stack: Ints  # windows that wait: side, right, left
+    near: Floats  # x, y, arc length, squared distance
+    near_at: Ints  # kind, segment of the curve, mesh vertex or -1
+    stack: Ints  # windows that wait
     windows: Ints
-    nodes: Ints
-    segments: Ints
-    shares: Floats
-    kinds: Ints
-    squares: Floats
-
-
-@njit()
-def goal_of(
-    mesh: Mesh, segment: Ints, vertex: Ints, arc: Floats, scale_x: float, scale_y: float
-) -> Goal:
-    """Prepare to look for a curve."""
-    x, y = mesh.x[vertex] * scale_x, mesh.y[vertex] * scale_y
-    largest = 0.0
-    for v in range(mesh.x.size):
-        largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
-    tie = TIE_OF_COORDINATE * largest
-    return Goal(segment, vertex, arc, x, y, box_tree(x, y), scale_x, scale_y, tie)
+    nodes: Ints  # of the tree of boxes, that wait
 
 
 @njit()
@@ -93,18 +43,33 @@ def new_view() -> View:
     """Empty tables."""
     return View(
         np.empty((16, 4)),
-        np.empty(16, np.intp),
+        np.empty((16, 3), np.intp),
         np.empty((64, 3), np.intp),
         np.empty((64, 3), np.intp),
         np.empty(DEPTH, np.intp),
-        np.empty(16, np.intp),
-        np.empty(16),
-        np.empty(16, np.intp),
-        np.empty(16),
     )
 
 
-@njit()
+@njit(inline=True)
+def sees(mesh: Mesh, spot: Spot, side: int, qx: float, qy: float) -> bool:
+    """Whether the straight way from P to Q, a point on a boundary side, is free.
+
+    Where rounding or a vertex on the way leaves a doubt, the answer is no.
+    """
+    if spot.vertex >= 0:
+        t = triangle_towards(mesh, spot.vertex, qx, qy)
+    else:
+        t = -1 if is_beyond(mesh, spot.side, qx, qy) else spot.side // 3
+    if t < 0:
+        return False
+    _, obstacle = walk(mesh, t, side // 3, spot.x, spot.y, qx, qy)
+    return obstacle == -1
+
+
+# -- looking around --------------------------------------------------------------------------------
+
+
+@njit(inline=True)
 def squared_distance_to_side(
     px: float, py: float, ax: float, ay: float, bx: float, by: float, scale_x: float, scale_y: float
 ) -> float:
@@ -128,16 +93,15 @@ def ray_meets_side(
     return at_a / (at_a - at_b) if at_a != at_b else np.nan
 
 
-@njit()
+@njit(inline=True)
 def nearest_on_side(
     mesh: Mesh,
+    goal: Goal,
     e: int,
     right: int,
     left: int,
     px: float,
     py: float,
-    scale_x: float,
-    scale_y: float,
     low: float,
     high: float,
 ) -> tuple[float, int]:
@@ -162,12 +126,12 @@ def nearest_on_side(
     if high < last:
         last, kind_last = high, LIMIT
     return nearest_share(
-        px * scale_x,
-        py * scale_y,
-        ux * scale_x,
-        uy * scale_y,
-        vx * scale_x,
-        vy * scale_y,
+        px * goal.scale_x,
+        py * goal.scale_y,
+        ux * goal.scale_x,
+        uy * goal.scale_y,
+        vx * goal.scale_x,
+        vy * goal.scale_y,
         first,
         last,
         kind_first,
@@ -175,127 +139,7 @@ def nearest_on_side(
     )
 
 
-@njit()
-def keep_ties(found: Floats, kinds: Ints, count: int, tie: float) -> int:
-    """Sort the points found by arc length, drop those that are not nearest or double."""
-    best = np.inf
-    for i in range(count):
-        best = min(best, found[i, 3])
-    radius = np.sqrt(best)
-    limit = (radius + max(tie, TIE_OF_RADIUS * radius)) ** 2
-    kept = 0
-    for i in range(count):
-        if found[i, 3] > limit:
-            continue
-        arc, k = found[i, 2], kinds[i]
-        row_x, row_y, row_d = found[i, 0], found[i, 1], found[i, 3]
-        double = False
-        j = kept
-        while j > 0 and found[j - 1, 2] >= arc:
-            double = double or found[j - 1, 2] == arc
-            j -= 1
-        if double or (j > 0 and found[j - 1, 0] == row_x and found[j - 1, 1] == row_y):
-            continue
-        for m in range(kept, j, -1):
-            found[m] = found[m - 1]
-            kinds[m] = kinds[m - 1]
-        found[j, 0], found[j, 1], found[j, 2], found[j, 3] = row_x, row_y, arc, row_d
-        kinds[j] = k
-        kept += 1
-    return kept
-
-
-@njit()
-def grown(array: Floats, rows: int) -> Floats:
-    """Copy of a table of floats with room for ``rows`` rows."""
-    larger = np.empty((rows, array.shape[1]))
-    larger[: array.shape[0]] = array
-    return larger
-
-
-@njit()
-def grown_ints(array: Ints, size: int) -> Ints:
-    """Copy of an array of integers with room for ``size``."""
-    larger = np.empty(size, np.intp)
-    larger[: array.size] = array
-    return larger
-
-
-@njit()
-def with_room(rows: Ints, count: int) -> Ints:
-    """Return the table itself, or a copy twice as long where fewer than three rows are left."""
-    if count + 3 <= rows.shape[0]:
-        return rows
-    larger = np.empty((2 * rows.shape[0], 3), np.intp)
-    larger[:count] = rows[:count]
-    return larger
-
-
-@njit()
-def add_window(windows: Ints, count: int, side: int, right: int, left: int) -> int:
-    """Append a window; return the new count."""
-    windows[count, 0], windows[count, 1], windows[count, 2] = side, right, left
-    return count + 1
-
-
-@njit()
-def first_windows(
-    mesh: Mesh, side: int, vertex: int, x: float, y: float, windows: Ints
-) -> tuple[Ints, int]:
-    """Return the sides that a boundary point sees without looking through another one.
-
-    Of a point on a side, those of its triangle; of a vertex, the rims and outer sides of its fans.
-    In a triangle thinner than rounding the point may lie beyond a side; then it looks out of the
-    triangle there.
-    """
-    count = 0
-    if vertex < 0:
-        count = add_window(windows, count, side, mesh.tri[side], mesh.tri[next_side(side)])
-        for e in (next_side(side), previous_side(side)):
-            if not is_beyond(mesh, e, x, y):
-                count = add_window(windows, count, e, mesh.tri[e], mesh.tri[next_side(e)])
-                continue
-            f = mesh.twin[e]
-            if f < 0:
-                continue
-            for g in (next_side(f), previous_side(f)):
-                if not is_beyond(mesh, g, x, y):
-                    count = add_window(windows, count, g, mesh.tri[g], mesh.tri[next_side(g)])
-        return windows, count
-    door = mesh.door[vertex]
-    while door >= 0:
-        e = door
-        count = add_window(windows, count, e, mesh.tri[e], mesh.tri[next_side(e)])
-        while e >= 0:
-            windows = with_room(windows, count)
-            across, rim = next_side(e), previous_side(e)
-            count = add_window(windows, count, across, mesh.tri[across], mesh.tri[rim])
-            if mesh.twin[rim] < 0:
-                count = add_window(windows, count, rim, mesh.tri[rim], vertex)
-            e = mesh.twin[rim]
-        door = mesh.other_door[door]
-        windows = with_room(windows, count)
-    return windows, count
-
-
-@njit()
-def next_windows(
-    mesh: Mesh, side: int, right: int, left: int, x: float, y: float, windows: Ints
-) -> int:
-    """Look through a side: the windows on the two sides behind it. Return their number."""
-    e = mesh.twin[side]  # runs from left to right as P sees it, so its next side is the right one
-    w = mesh.tri[previous_side(e)]
-    by_right = orient(x, y, mesh.x[right], mesh.y[right], mesh.x[w], mesh.y[w])
-    by_left = orient(x, y, mesh.x[left], mesh.y[left], mesh.x[w], mesh.y[w])
-    count = 0
-    if by_right >= 0.0:
-        count = add_window(windows, count, next_side(e), right, w if by_left < 0.0 else left)
-    if by_left <= 0.0:
-        count = add_window(windows, count, previous_side(e), w if by_right > 0.0 else right, left)
-    return count
-
-
-@njit()
+@njit(inline=True)
 def offer_of_segment(
     mesh: Mesh,
     goal: Goal,
@@ -304,31 +148,26 @@ def offer_of_segment(
     left: int,
     x: float,
     y: float,
-    j: int,
     low: float,
     high: float,
 ) -> tuple[float, float, int]:
-    """Return what segment j of the curve offers.
-
-    Share of the way along its side, arc length, kind.
-    """
-    length = goal.arc[j + 1] - goal.arc[j]
-    is_forward = goal.vertex[j] == mesh.tri[side]
+    """Return what a side on the curve offers: share of the way along it, arc length, kind."""
+    j, arc = goal.segment[side], goal.chain.arc
+    length = arc[j + 1] - arc[j]
+    is_forward = goal.chain.vertex[j] == mesh.tri[side]
     share_low, share_high = 0.0, 1.0
-    if low > goal.arc[j] or high < goal.arc[j + 1]:
-        share_low, share_high = (low - goal.arc[j]) / length, (high - goal.arc[j]) / length
+    if low > arc[j] or high < arc[j + 1]:
+        share_low, share_high = (low - arc[j]) / length, (high - arc[j]) / length
         if not is_forward:
             share_low, share_high = 1.0 - share_high, 1.0 - share_low
-    share, kind = nearest_on_side(
-        mesh, side, right, left, x, y, goal.scale_x, goal.scale_y, share_low, share_high
-    )
+    share, kind = nearest_on_side(mesh, goal, side, right, left, x, y, share_low, share_high)
     along = share if is_forward else 1.0 - share
-    arc = goal.arc[j + 1] if along == 1.0 else goal.arc[j] + along * length
-    return share, arc, kind
+    at = arc[j + 1] if along == 1.0 else arc[j] + along * length
+    return share, at, kind
 
 
-@njit()
-def offer_of_end(
+@njit(inline=True)
+def offer_of_ends(
     mesh: Mesh,
     goal: Goal,
     side: int,
@@ -339,47 +178,40 @@ def offer_of_end(
     low: float,
     high: float,
 ) -> tuple[float, float, int]:
-    """Return an end of the curve can be seen where its own segment is not.
+    """Return what a boundary side that is not on the curve offers: an end of it that is.
 
-    At the end of a boundary side next to it.
+    Next to the curve's ends, and where a hole touches the curve, a vertex of the curve may be seen
+    where no segment of it is.
     """
-    u, v = mesh.tri[side], mesh.tri[next_side(side)]
-    for end, arc in ((goal.vertex[0], 0.0), (goal.vertex[-1], goal.arc[-1])):
-        if arc < low or arc > high:
+    best, share, at = np.inf, np.nan, np.nan
+    for end in range(2):
+        v = mesh.tri[side if end == 0 else next_side(side)]
+        i = goal.place[v]
+        if i < 0 or goal.chain.arc[i] < low or goal.chain.arc[i] > high:
             continue
-        if end == u and (
-            right == u or orient(x, y, mesh.x[right], mesh.y[right], mesh.x[u], mesh.y[u]) >= 0.0
-        ):
-            return 0.0, arc, VERTEX
-        if end == v and (
-            left == v or orient(x, y, mesh.x[left], mesh.y[left], mesh.x[v], mesh.y[v]) <= 0.0
-        ):
-            return 1.0, arc, VERTEX
-    return np.nan, np.nan, VERTEX
+        ray = right if end == 0 else left
+        turn = 0.0 if ray == v else orient(x, y, mesh.x[ray], mesh.y[ray], mesh.x[v], mesh.y[v])
+        is_shown = turn >= 0.0 if end == 0 else turn <= 0.0
+        dx, dy = (mesh.x[v] - x) * goal.scale_x, (mesh.y[v] - y) * goal.scale_y
+        if is_shown and dx * dx + dy * dy < best:
+            best, share, at = dx * dx + dy * dy, float(end), goal.chain.arc[i]
+    return share, at, VERTEX
 
 
 @njit()
 def look(
-    mesh: Mesh,
-    goal: Goal,
-    x: float,
-    y: float,
-    side: int,
-    vertex: int,
-    low: float,
-    high: float,
-    bound: float,
-    view: View,
+    mesh: Mesh, goal: Goal, spot: Spot, low: float, high: float, bound: float, view: View
 ) -> tuple[View, int]:
-    """Look around: collect the points of the curve that are seen.
+    """Look around: put the points of the curve that are seen in ``view.near``.
 
     Only those not farther than ``bound`` nor, when found, than the nearest so far. Return the
     view, with larger tables if need be, and a count.
     """
-    near, near_kind, stack = view.near, view.near_kind, view.stack
+    x, y = spot.x, spot.y
+    near, near_at, stack = view.near, view.near_at, view.stack
     bound = bound * bound
     count, depth, left_to_do = 0, 0, WINDOWS_PER_SIDE * mesh.tri.size
-    windows, n_windows = first_windows(mesh, side, vertex, x, y, view.windows)
+    windows, n_windows = first_windows(mesh, spot, view.windows)
     while True:
         # 1. Boundary sides make their offer; open sides that are near enough wait.
         for w in range(n_windows):
@@ -392,11 +224,10 @@ def look(
                 stack = with_room(stack, depth)
                 depth = add_window(stack, depth, e, right, left)
                 continue
-            j = goal.segment[e]
-            if j >= 0:
-                share, arc, kind = offer_of_segment(mesh, goal, e, right, left, x, y, j, low, high)
+            if goal.segment[e] >= 0:
+                share, arc, kind = offer_of_segment(mesh, goal, e, right, left, x, y, low, high)
             else:
-                share, arc, kind = offer_of_end(mesh, goal, e, right, left, x, y, low, high)
+                share, arc, kind = offer_of_ends(mesh, goal, e, right, left, x, y, low, high)
             if np.isnan(share):
                 continue
             qx, qy = ux + share * (vx - ux), uy + share * (vy - uy)
@@ -406,11 +237,13 @@ def look(
             if d > bound:
                 continue
             radius = np.sqrt(d)
-            bound = min(bound, (radius + max(goal.tie, TIE_OF_RADIUS * radius)) ** 2)
-            if count == near_kind.size:
-                near, near_kind = grown(near, 2 * count), grown_ints(near_kind, 2 * count)
+            bound = min(bound, (radius + slack_of(goal.tie, radius)) ** 2)
+            if count == near.shape[0]:
+                near, near_at = twice(near), twice_ints(near_at)
+            vertex = v if share == 1.0 else u if share == 0.0 else -1
             near[count, 0], near[count, 1], near[count, 2], near[count, 3] = qx, qy, arc, d
-            near_kind[count] = kind
+            near_at[count, 0], near_at[count, 2] = kind, vertex
+            near_at[count, 1] = goal.segment[e] if vertex < 0 else segment_at(goal, vertex)
             count += 1
         # 2. The open side that came last is looked through.
         left_to_do -= 1
@@ -420,214 +253,68 @@ def look(
         n_windows = next_windows(
             mesh, stack[depth, 0], stack[depth, 1], stack[depth, 2], x, y, windows
         )
-    return View(
-        near,
-        near_kind,
-        stack,
-        windows,
-        view.nodes,
-        view.segments,
-        view.shares,
-        view.kinds,
-        view.squares,
-    ), count
+    return View(near, near_at, stack, windows, view.nodes), count
 
 
 @njit()
-def sees(
-    mesh: Mesh,
-    target: Ints,
-    x: float,
-    y: float,
-    side: int,
-    vertex: int,
-    j: int,
-    qx: float,
-    qy: float,
-) -> bool:
-    """Whether the straight way from P to Q, a point on auxiliary segment j, is free.
-
-    Where rounding or a vertex on the way leaves a doubt, the answer is no.
-    """
-    t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
-    if t < 0 or (vertex < 0 and is_beyond(mesh, side, qx, qy)):
-        return False
-    _, obstacle = walk(mesh, t, x, y, qx, qy)
-    return obstacle == -1 or (obstacle >= 0 and target[obstacle] == j)
+def segment_at(goal: Goal, vertex: int) -> int:
+    """Segment of the curve that leaves one of its vertices; of its end, the one that arrives."""
+    return min(goal.place[vertex], goal.chain.side.size - 1)
 
 
 @njit()
-def nearest_if_seen(
-    mesh: Mesh,
-    goal: Goal,
-    x: float,
-    y: float,
-    side: int,
-    vertex: int,
-    low: float,
-    high: float,
-    reach: float,
-    view: View,
-) -> tuple[int, float]:
-    """Nearest points of a curve, in ``view.near``, if one point sees them.
+def twice(table: Floats) -> Floats:
+    """Copy of a table with room for as many rows again."""
+    n = table.shape[0]
+    larger = np.empty((2 * n, table.shape[1]))
+    larger[:n] = table
+    return larger
 
-    Return their number, or -1 where it cannot be told or something is in the way, and how far the
-    nearest point is at all. Points farther than ``reach`` do not count.
+
+@njit()
+def twice_ints(table: Ints) -> Ints:
+    """Copy of a table with room for as many rows again."""
+    n = table.shape[0]
+    larger = np.empty((2 * n, table.shape[1]), np.intp)
+    larger[:n] = table
+    return larger
+
+
+# -- ties ------------------------------------------------------------------------------------------
+
+
+@njit()
+def keep_ties(tie: float, view: View, count: int) -> int:
+    """Sort the points found by arc length; drop those that are not nearest, or double.
+
+    A vertex is double if a foot next to it differs by rounding only.
     """
-    # 1. The nearest point at all.
-    slack = goal.tie if reach == np.inf else max(goal.tie, TIE_OF_RADIUS * reach)
-    n_nearest = nearest_on_chain(
-        x * goal.scale_x,
-        y * goal.scale_y,
-        goal.x,
-        goal.y,
-        goal.arc,
-        goal.boxes,
-        low,
-        high,
-        reach,
-        slack,
-        view.nodes,
-        view.segments,
-        view.shares,
-        view.kinds,
-        view.squares,
-    )
+    near, near_at = view.near, view.near_at
     best = np.inf
-    for k in range(n_nearest):
-        best = min(best, view.squares[k])
-    nearest = np.sqrt(best)
-    limit = (nearest + max(goal.tie, TIE_OF_RADIUS * nearest)) ** 2
-    # 2. If it is seen, and so is every point equally near, that is the answer.
-    if n_nearest < 0:
-        return -1, nearest
-    count = 0
-    for k in range(n_nearest):
-        if view.squares[k] > limit:
+    for i in range(count):
+        best = min(best, near[i, 3])
+    radius = np.sqrt(best)
+    slack = slack_of(tie, radius)
+    limit = (radius + slack) ** 2
+    kept = 0
+    for i in range(count):
+        x, y, arc, squared = near[i, 0], near[i, 1], near[i, 2], near[i, 3]
+        kind, segment, vertex = near_at[i, 0], near_at[i, 1], near_at[i, 2]
+        if squared > limit:
             continue
-        j, share = view.segments[k], view.shares[k]
-        a, b = goal.vertex[j], goal.vertex[j + 1]
-        qx = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
-        qy = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-        arc = goal.arc[j] + share * (goal.arc[j + 1] - goal.arc[j])
-        if share == 1.0:
-            qx, qy, arc = mesh.x[b], mesh.y[b], goal.arc[j + 1]
-        if not sees(mesh, goal.segment, x, y, side, vertex, j, qx, qy):
-            return -1, nearest
-        view.near[count, 0], view.near[count, 1], view.near[count, 2] = qx, qy, arc
-        view.near[count, 3], view.near_kind[count] = view.squares[k], view.kinds[k]
-        count += 1
-    return count, nearest
-
-
-@njit(entry=True)
-def nearest_visible(
-    mesh: Mesh,
-    target: Ints,
-    aux_vertex: Ints,
-    aux_arc: Floats,
-    px: Floats,
-    py: Floats,
-    p_side: Ints,
-    p_vertex: Ints,
-    low: Floats,
-    high: Floats,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[Ints, Floats, Ints]:
-    """Nearest points of the auxiliary curve that each P sees.
-
-    Parameters
-    ----------
-    mesh : the area
-    target : for each half-edge the auxiliary segment on it, or -1
-    aux_vertex, aux_arc : (m + 1,) vertices of the auxiliary curve and their arc lengths
-    px, py : (n,) points of the main curve
-    p_side : (n,) the boundary side that each P lies on
-    p_vertex : (n,) the mesh vertex that P is, or -1
-    low, high : (n,) only points with an arc length from low to high count
-    scale_x, scale_y : lengths of one unit of x and of y
-
-    Returns
-    -------
-    station : (k,) index of P for each point found; several where radii tie, in order of travel
-        along the auxiliary curve; none where P sees nothing
-    found : (k, 4) x, y, arc length and squared radius
-    kind : (k,) FOOT, VERTEX, GRAZE or LIMIT
-
-    Notes
-    -----
-    Exact but for the rounding of the points themselves: every sign is. Time per P grows with the
-    number of triangles nearer than the answer, some 10 to 20 in an area that is triangulated well.
-    """
-    n = px.size
-    station, kind = np.empty(n + 8, np.intp), np.empty(n + 8, np.intp)
-    found = np.empty((n + 8, 4))
-    goal = goal_of(mesh, target, aux_vertex, aux_arc, scale_x, scale_y)
-    view = new_view()
-    total, reach, seen = 0, np.inf, np.inf
-    for i in range(n):
-        # The nearest point is at most a step farther than the one before, if as many count; so
-        # is, mostly, the nearest one that is seen.
-        if i > 0:
-            step = np.hypot((px[i] - px[i - 1]) * scale_x, (py[i] - py[i - 1]) * scale_y)
-            reach = (reach + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
-            seen = (seen + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
-            if low[i] > low[i - 1] or high[i] < high[i - 1]:
-                reach = np.inf
-        count, reach = nearest_if_seen(
-            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], reach, view
-        )
-        for bound in (seen, np.inf):
-            if count < 0:
-                view, count = look(
-                    mesh, goal, px[i], py[i], p_side[i], p_vertex[i], low[i], high[i], bound, view
-                )
-                count = count if count > 0 or bound == np.inf else -1
-        seen = np.inf
-        if count == 0:
+        is_double = False
+        j = kept
+        while j > 0 and near[j - 1, 2] >= arc - slack:
+            is_double = is_double or near[j - 1, 2] <= arc + slack
+            j -= 1
+        if is_double:
             continue
-        kept = keep_ties(view.near, view.near_kind, count, goal.tie)
-        seen = np.sqrt(view.near[0, 3])
-        if total + kept > station.size:
-            room = 2 * (total + kept)
-            found = grown(found, room)
-            station, kind = grown_ints(station, room), grown_ints(kind, room)
-        station[total : total + kept] = i
-        found[total : total + kept] = view.near[:kept]
-        kind[total : total + kept] = view.near_kind[:kept]
-        total += kept
-    return station[:total], found[:total], kind[:total]
-
-
-@njit(entry=True)
-def sees_within(
-    mesh: Mesh,
-    target: Ints,
-    vertex: Ints,
-    arc: Floats,
-    px: Floats,
-    py: Floats,
-    p_side: Ints,
-    p_vertex: Ints,
-    bound: Floats,
-    scale_x: float,
-    scale_y: float,
-) -> Bools:
-    """Whether each point of the boundary sees a curve nearer than its bound.
-
-    Parameters are those of ``nearest_visible``; ``bound`` is (n,) distances.
-    """
-    goal = goal_of(mesh, target, vertex, arc, scale_x, scale_y)
-    view = new_view()
-    seen = np.zeros(px.size, np.bool_)
-    for i in range(px.size):
-        count, _ = nearest_if_seen(
-            mesh, goal, px[i], py[i], p_side[i], p_vertex[i], -np.inf, np.inf, bound[i], view
-        )
-        if count < 0:
-            view, count = look(
-                mesh, goal, px[i], py[i], p_side[i], p_vertex[i], -np.inf, np.inf, bound[i], view
-            )
-        seen[i] = count > 0
-    return seen
+        for m in range(kept, j, -1):
+            for k in range(4):
+                near[m, k] = near[m - 1, k]
+            for k in range(3):
+                near_at[m, k] = near_at[m - 1, k]
+        near[j, 0], near[j, 1], near[j, 2], near[j, 3] = x, y, arc, squared
+        near_at[j, 0], near_at[j, 1], near_at[j, 2] = kind, segment, vertex
+        kept += 1
+    return kept
