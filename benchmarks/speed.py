@@ -37,7 +37,7 @@ MISSING, TIMES = "\N{EN DASH}", "\N{MULTIPLICATION SIGN}"
 
 ROUNDS = 7
 BUDGET = 2.0  # seconds after which a way takes no further turn at a size
-SHORTEST = 0.005  # seconds; faster calls are repeated until they last so long
+SHORTEST = 0.05  # seconds; faster calls are repeated until they last so long
 LONGEST = 30.0  # seconds; what a smaller size predicts to last longer is left out
 FIRST_GUESS = 1.5  # growth of a way that has been measured at one size only
 BATCH, SAMPLE, BATCH_VERTICES = 10_000, 200, 100

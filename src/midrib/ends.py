@@ -5,7 +5,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from midrib.kernels import ends as kernel
-from midrib.layout import Boundary, Layout, Main, Scale, lay_out
+from midrib.kernels.layout import lay_out_rings
+from midrib.kernels.rings import Rings
+from midrib.layout import (
+    NO_HEIGHT,
+    Boundary,
+    Layout,
+    Main,
+    Scale,
+    boundary_of,
+    lay_out,
+    layout_of,
+)
 from midrib.types import Floats, Ints
 
 __all__ = ["End", "end_at", "end_far_from", "lay_out_ends", "lay_out_proposed"]
@@ -35,8 +46,13 @@ class End:
         return End(self.other, self.place, self.share)
 
 
-def lay_out_proposed(boundary: Boundary, scale: Scale) -> Layout:
+def lay_out_proposed(rings: Rings, height: Floats | None, scale: Scale) -> Layout:
     """Divide an area at the two ends that its shape proposes."""
+    known = NO_HEIGHT if height is None else height[rings.origin]
+    divided = lay_out_rings(rings, known, *scale)
+    if divided.is_divided:
+        return layout_of(divided, scale)
+    boundary = boundary_of(rings, height)
     return lay_out(boundary, *proposed(boundary, scale, -1), scale)
 
 

@@ -6,19 +6,21 @@ import numpy as np
 
 from midrib.errors import InvalidAreaError, InvariantError
 from midrib.kernels.chain import Chain
-from midrib.kernels.division import AGAINST, LONGER, WITH, divide_shell
+from midrib.kernels.division import AGAINST, LONGER, WITH, Divided, divide_shell
 from midrib.kernels.mesh import Mesh, mesh_rings
 from midrib.kernels.rings import Rings
 from midrib.types import Floats, Ints
 
 __all__ = [
+    "NO_HEIGHT",
     "Boundary",
-    "EndPoint",
+    "EndPoints",
     "Layout",
     "Main",
     "Scale",
     "boundary_of",
     "lay_out",
+    "layout_of",
 ]
 
 Scale = tuple[float, float]  # length of one unit of x and of y
@@ -38,14 +40,13 @@ class Boundary(NamedTuple):
     height: Floats | None  # of each mesh vertex
 
 
-class EndPoint(NamedTuple):
-    """A point for an end of a curve, and where on the boundary the search for it begins."""
+class EndPoints(NamedTuple):
+    """Two points for the ends of a curve, or none, and where the search for each begins."""
 
-    point: tuple[float, float]
-    origin: tuple[float, float]
-    side: int
-    vertex: int  # mesh vertex that the origin is, or -1
-    height: float  # Z, NaN if unknown
+    point: Floats  # (2, 2)
+    origin: Floats  # (2, 2) points of the boundary that see them
+    at: Ints  # (2, 2) the boundary side each origin is on, and the mesh vertex it is or -1
+    height: Floats  # (2,) Z, NaN if unknown
 
 
 class Layout(NamedTuple):
@@ -54,7 +55,7 @@ class Layout(NamedTuple):
     mesh: Mesh
     main: Chain
     auxiliary: Chain
-    middle: tuple[EndPoint, EndPoint]  # halfway between the two curves' starts, and their ends
+    middle: EndPoints  # halfway between the two curves' starts, and their ends
     scale: Scale
     height: Floats | None
     mean_width: float  # area within the shell over the mean length of the two curves
@@ -138,17 +139,17 @@ def lay_out(
         x, y, _ = divided.middle[0]
         msg = f"start and end are the same point of the boundary, ({x:.12g}, {y:.12g})"
         raise InvalidAreaError(msg)
-    start, end = (
-        EndPoint((x, y), (x, y), side, vertex, z)
-        for (x, y, z), (side, vertex) in zip(
-            divided.middle.tolist(), divided.middle_at.tolist(), strict=True
-        )
-    )
+    return layout_of(divided, scale)
+
+
+def layout_of(divided: Divided, scale: Scale) -> Layout:
+    """Layout of a divided shell."""
+    middle = divided.middle[:, :2]
     return Layout(
         divided.mesh,
         divided.main,
         divided.auxiliary,
-        (start, end),
+        EndPoints(middle, middle, divided.middle_at, divided.middle[:, 2]),
         scale,
         divided.height if divided.height.size else None,
         divided.mean_width,

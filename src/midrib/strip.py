@@ -9,6 +9,7 @@ from shapely import LineString, Polygon
 
 from midrib.ends import End, end_at, end_far_from, lay_out_ends, lay_out_proposed
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
+from midrib.kernels.rings import Rings
 from midrib.layout import Boundary, Layout, Scale, boundary_of
 from midrib.ragged import area_of_one, place_text, rings_of_area
 
@@ -168,26 +169,28 @@ def split(
     'LINESTRING (0 0, 9 0)'
     """
     area = area_of_one(area, "area")
-    boundary = boundary_of(*rings_of_area(area))
-    return Strip._of_layout(divide(boundary, PLANE, along=along, start=start, end=end), area)
+    layout = divide(*rings_of_area(area), PLANE, along=along, start=start, end=end)
+    return Strip._of_layout(layout, area)
 
 
 def divide(
-    boundary: Boundary,
+    rings: Rings,
+    height: "Floats | None",
     scale: Scale,
     *,
     along: LineString | None = None,
     start: "Position | None" = None,
     end: "Position | None" = None,
 ) -> Layout:
-    """Divide a triangulated area by whatever hint there is; see ``split``."""
+    """Divide an area by whatever hint there is; see ``split``."""
+    if along is None and start is None and end is None:
+        return lay_out_proposed(rings, height, scale)
+    boundary = boundary_of(rings, height)
     if along is not None:
         if start is not None or end is not None:
             msg = "along excludes start and end, give one or the other"
             raise ParameterError(msg)
         return divide_along(boundary, checked_curve(along, "along"), scale)
-    if start is None and end is None:
-        return lay_out_proposed(boundary, scale)
     if start is not None and end is not None:
         first, last = (
             end_at(boundary, position(p, n), scale) for p, n in ((start, "start"), (end, "end"))

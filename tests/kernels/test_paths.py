@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from shapely import LineString, Polygon
 
-from midrib.kernels.paths import join_points
+from midrib.kernels.paths import Beads, join_points
 from midrib.layout import Boundary, boundary_of
 from midrib.ragged import rings_of_area
 from tests.shapes import NAMED, VALID
@@ -24,9 +24,8 @@ def join_vertices(boundary: Boundary, vertices: list[int]) -> tuple[Floats, NDAr
     """Path through vertices of the shell, one after the other."""
     mesh = boundary.mesh
     v = np.array(vertices, dtype=np.intp)
-    path, source = join_points(
-        mesh, mesh.x[v], mesh.y[v], mesh.x[v], mesh.y[v], mesh.door[v], v, 1.0, 1.0
-    )
+    points = np.column_stack([mesh.x[v], mesh.y[v]])
+    path, source = join_points(mesh, Beads(points, points, mesh.door[v], v), 1.0, 1.0)
     return np.asarray(path), np.asarray(source)
 
 
@@ -119,8 +118,9 @@ def test_a_point_outside_is_left_out() -> None:
     boundary = boundary_of(*rings_of_area(NAMED["square"]))
     mesh = boundary.mesh
     side, vertex = int(mesh.door[0]), 0
-    x, y = np.array([1.0, 9.0, 3.0]), np.array([1.0, 9.0, 3.0])
-    origin = np.full(3, mesh.x[0]), np.full(3, mesh.y[0])
-    path, source = join_points(mesh, x, y, *origin, np.full(3, side), np.full(3, vertex), 1.0, 1.0)
+    points = np.array([[1.0, 1.0], [9.0, 9.0], [3.0, 3.0]])
+    origin = np.repeat([[mesh.x[0], mesh.y[0]]], 3, axis=0)
+    beads = Beads(points, origin, np.full(3, side), np.full(3, vertex))
+    path, source = join_points(mesh, beads, 1.0, 1.0)
     assert path.tolist() == [[1.0, 1.0], [3.0, 3.0]]
     assert source.tolist() == [0, 2]

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from midrib.curves.construction import check_ends, draw_radii, join_middles
+from midrib.curves.joining import check_ends, join_middles
+from midrib.curves.radii import draw_radii
 from midrib.curves.stations import station_rule
 from midrib.errors import InvalidAreaError, ParameterError
-from midrib.layout import Scale, boundary_of
+from midrib.layout import Scale
 from midrib.strip import divide
 
 if TYPE_CHECKING:
@@ -57,9 +58,9 @@ def minimal_radii_finder(
     def find(
         rings: "Rings", height: "Floats | None", along: "LineString | None", scale: Scale
     ) -> Found:
-        layout = divide(boundary_of(rings, height), scale, along=along)
+        layout = divide(rings, height, scale, along=along)
         radii = draw_radii(layout, rule, end_clearance)
-        if radii.station.size == 0:
+        if len(radii.points) == 0:
             msg = "no station of the main curve sees anything of the auxiliary curve"
             raise InvalidAreaError(msg)
         path = join_middles(layout, radii, ends)

@@ -7,14 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from shapely import LineString
 
-from midrib.curves.construction import (
-    EndClearance,
-    EndRule,
-    check_ends,
-    draw_radii,
-    join_middles,
-    jumps_of,
-)
+from midrib.curves.joining import EndRule, check_ends, join_middles
+from midrib.curves.radii import EndClearance, draw_radii, jumps_of
 from midrib.curves.stations import Skip, station_rule
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.strip import Strip
@@ -22,7 +16,8 @@ from midrib.strip import Strip
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from midrib.curves.construction import Path, Radii
+    from midrib.curves.joining import Path
+    from midrib.curves.radii import Radii
     from midrib.types import Floats
 
 __all__ = ["Curve", "minimal_radii"]
@@ -54,12 +49,12 @@ class Curve:
     @property
     def on_main(self) -> "Floats":
         """(n, 2) the points P."""
-        return self._radii.on_main
+        return self._radii.points[:, :2]
 
     @property
     def on_auxiliary(self) -> "Floats":
         """(n, 2) the points Q, nearest to P of the auxiliary curve's points that P sees."""
-        return self._radii.on_auxiliary
+        return self._radii.points[:, 2:4]
 
     @cached_property
     def points(self) -> "Floats":
@@ -69,7 +64,7 @@ class Curve:
     @property
     def radii(self) -> "Floats":
         """(n,) the minimal radii, lengths of PQ."""
-        return self._radii.length
+        return self._radii.points[:, 5]
 
     @cached_property
     def gaps(self) -> "Floats":
@@ -197,7 +192,7 @@ def minimal_radii(
     check_ends(ends, end_clearance)
     rule = station_rule(spacing, count, percent, vertices, stations, skip)
     radii = draw_radii(strip.layout, rule, end_clearance)
-    if radii.station.size == 0:
+    if len(radii.points) == 0:
         msg = "no station sees anything of the auxiliary curve"
         raise InvalidAreaError(msg)
     return Curve(strip, radii, join_middles(strip.layout, radii, ends))

@@ -11,7 +11,6 @@ from midrib.curves.methods import minimal_radii_finder
 from midrib.curves.minimal_radii import Curve, minimal_radii
 from midrib.errors import MidribError
 from midrib.geodesy import degree_lengths
-from midrib.layout import boundary_of
 from midrib.ragged import rings_of_area
 from midrib.strip import PLANE, Strip, divide
 
@@ -36,7 +35,7 @@ def curves_of(
         scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
         guide = None if along is None else along[index]
         try:
-            layout = divide(boundary_of(*rings_of_area(polygon)), scale, along=guide)
+            layout = divide(*rings_of_area(polygon), scale, along=guide)
             strip = Strip._of_layout(layout, polygon)  # has its scale
             yield index, minimal_radii(strip, **(DEFAULTS | options))
         except MidribError:

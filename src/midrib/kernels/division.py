@@ -19,7 +19,7 @@ from midrib.kernels.tables import longer, longer_ints
 from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
-__all__ = ["AGAINST", "LONGER", "WITH", "divide_shell"]
+__all__ = ["AGAINST", "LONGER", "WITH", "Divided", "divide_shell"]
 
 LONGER, WITH, AGAINST = 0, 1, 2
 HALF = 0.5

@@ -15,6 +15,8 @@ Source: D. T. Lee, F. P. Preparata, Euclidean Shortest Paths in the Presence of 
 Barriers, Networks 14, 1984. All signs are exact, so no join leaves the area by rounding.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from midrib.kernels.heap import pop, push
@@ -25,7 +27,16 @@ from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
-__all__ = ["join_points"]
+__all__ = ["Beads", "join_points", "triangle_towards", "walk"]
+
+
+class Beads(NamedTuple):
+    """Points in an area, up to rounding, and where on the boundary the search for each begins."""
+
+    point: Floats  # (n, 2)
+    origin: Floats  # (n, 2) points of the boundary that see them
+    side: Ints  # (n,) the boundary side that each origin is on
+    vertex: Ints  # (n,) the mesh vertex that it is, or -1
 
 
 @njit()
@@ -272,25 +283,13 @@ def locate_from(
 
 
 @njit(entry=True)
-def join_points(
-    mesh: Mesh,
-    sx: Floats,
-    sy: Floats,
-    px: Floats,
-    py: Floats,
-    p_side: Ints,
-    p_vertex: Ints,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[Floats, Ints]:
+def join_points(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> tuple[Floats, Ints]:
     """Join points inside an area, one after the other, by shortest paths.
 
     Parameters
     ----------
     mesh : the area
-    sx, sy : (n,) points in the area, up to rounding
-    px, py : (n,) points of the boundary that see them, where the search for each begins
-    p_side, p_vertex : (n,) the boundary side and the mesh vertex (or -1) that each of them is on
+    beads : the points
     scale_x, scale_y : lengths of one unit of x and of y
 
     Returns
@@ -305,14 +304,14 @@ def join_points(
     holes the sleeve is the one shortest by the middles of its doors. A point that is outside by
     more than rounding is left out.
     """
-    n, m = sx.size, mesh.tri.size
+    n, m = beads.side.size, mesh.tri.size
     entered = np.full(m // 3, -1, np.intp)
     cost, key, heap = np.empty(m), np.empty(m), np.empty(m, np.intp)
     path, source = np.empty((2 * n + 16, 2)), np.empty(2 * n + 16, np.intp)
     count, t = 0, -1
     from_x, from_y = 0.0, 0.0
     for i in range(n):
-        qx, qy = sx[i], sy[i]
+        qx, qy = beads.point[i, 0], beads.point[i, 1]
         turns = np.empty(0, np.intp)
         end, obstacle = -1, -2
         if t >= 0:
@@ -320,10 +319,10 @@ def join_points(
         if obstacle != -1:
             end, qx, qy = locate_from(
                 mesh,
-                p_side[i],
-                p_vertex[i],
-                px[i],
-                py[i],
+                beads.side[i],
+                beads.vertex[i],
+                beads.origin[i, 0],
+                beads.origin[i, 1],
                 qx,
                 qy,
                 end,

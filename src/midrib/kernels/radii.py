@@ -23,8 +23,8 @@ __all__ = ["draw_radii"]
 class Drawn(NamedTuple):
     """Radii in order of travel."""
 
-    found: Floats  # (k, 4) x, y and arc length of Q, radius
-    at: Ints  # (k, 4) index of P; kind of Q, its segment, the mesh vertex it is or -1
+    points: Floats  # (k, 6) P, Q, arc length of Q, radius
+    at: Ints  # (k, 6) index, side and vertex of P; segment, vertex and kind of Q
     is_lopsided: Bools  # (k,)
 
 
@@ -67,7 +67,7 @@ def draw_radii(
     number of triangles nearer than the answer, some 10 to 20 in an area that is triangulated well.
     """
     n = points.shape[0]
-    found, at, total = np.empty((n + 8, 4)), np.empty((n + 8, 4), np.intp), 0
+    found, at, total = np.empty((n + 8, 6)), np.empty((n + 8, 6), np.intp), 0
     goal = goal_of(mesh, auxiliary, scale_x, scale_y)
     vertex, side, arc = auxiliary
     view = new_view()
@@ -108,9 +108,9 @@ def draw_radii(
         if not is_tie and sees(mesh, spot, side[j], qx, qy):
             at_vertex = a if share == 0.0 else b if share == 1.0 else -1
             at_arc = arc[j + 1] if share == 1.0 else arc[j] + share * (arc[j + 1] - arc[j])
-            found[total, 0], found[total, 1], found[total, 2] = qx, qy, at_arc
-            found[total, 3] = seen = reach
-            at[total, 0], at[total, 1], at[total, 2], at[total, 3] = i, kind, j, at_vertex
+            found[total, 2], found[total, 3], found[total, 4] = qx, qy, at_arc
+            found[total, 5] = seen = reach
+            at[total, 0], at[total, 3], at[total, 4], at[total, 5] = i, j, at_vertex, kind
             total += 1
             continue
         # 3. Where it does not, or there are several, P looks around.
@@ -122,13 +122,18 @@ def draw_radii(
         while total + count > at.shape[0]:
             found, at = twice(found), twice_ints(at)
         for k in range(count):
-            found[total, 0], found[total, 1] = view.near[k, 0], view.near[k, 1]
-            found[total, 2], found[total, 3] = view.near[k, 2], np.sqrt(view.near[k, 3])
-            at[total, 0], at[total, 1] = i, view.near_at[k, 0]
-            at[total, 2], at[total, 3] = view.near_at[k, 1], view.near_at[k, 2]
+            found[total, 2], found[total, 3] = view.near[k, 0], view.near[k, 1]
+            found[total, 4], found[total, 5] = view.near[k, 2], np.sqrt(view.near[k, 3])
+            at[total, 0] = i
+            for column in range(3):
+                at[total, 3 + column] = view.near_at[k, column]
             total += 1
         seen = np.sqrt(view.near[0, 3]) if count > 0 else np.inf
     found, at = found[:total], at[:total]
+    for k in range(total):
+        i = at[k, 0]
+        found[k, 0], found[k, 1] = points[i, 0], points[i, 1]
+        at[k, 1], at[k, 2] = p_side[i], p_vertex[i]
     is_lopsided = np.zeros(total, np.bool_)
     if lopsided > 0.0:
         goal = goal_of(mesh, main, scale_x, scale_y)
@@ -154,7 +159,7 @@ def find_lopsided(
     """
     clear, last_x, last_y = 0.0, 0.0, 0.0  # nothing of the main curve is nearer to last than clear
     for i in range(found.shape[0]):
-        x, y, radius = found[i, 0], found[i, 1], found[i, 3]
+        x, y, radius = found[i, 2], found[i, 3], found[i, 5]
         bound = radius / factor
         moved = length((x - last_x) * goal.scale_x, (y - last_y) * goal.scale_y)
         if (clear - moved) * (1.0 - TIE_OF_RADIUS) > bound:
@@ -179,7 +184,7 @@ def find_lopsided(
         a, b = goal.chain.vertex[j], goal.chain.vertex[j + 1]
         qx = mesh.x[b] if share == 1.0 else mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
         qy = mesh.y[b] if share == 1.0 else mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-        spot = spot_at(mesh, x, y, side[at[i, 2]], at[i, 3])
+        spot = spot_at(mesh, x, y, side[at[i, 3]], at[i, 4])
         is_lopsided[i] = sees(mesh, spot, goal.chain.side[j], qx, qy)
         if not is_lopsided[i]:
             view, count = look(mesh, goal, spot, -np.inf, np.inf, bound, view)

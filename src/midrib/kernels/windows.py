@@ -19,11 +19,10 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond, pull_inside
-from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Ints
 
-__all__ = ["Spot", "add_window", "first_windows", "next_windows", "spot_at", "with_room"]
+__all__ = ["Spot", "add_window", "first_windows", "part_window", "spot_at", "with_room"]
 
 
 class Spot(NamedTuple):
@@ -105,14 +104,15 @@ def first_windows(mesh: Mesh, spot: Spot, windows: Ints) -> tuple[Ints, int]:
 
 
 @njit(inline=True)
-def next_windows(
-    mesh: Mesh, side: int, right: int, left: int, x: float, y: float, windows: Ints
+def part_window(
+    e: int, w: int, right: int, left: int, by_right: float, by_left: float, windows: Ints
 ) -> int:
-    """Look through a side: the windows on the two sides behind it. Return their number."""
-    e = mesh.twin[side]  # runs from left to right as P sees it, so its next side is the right one
-    w = mesh.tri[previous_side(e)]
-    by_right = orient(x, y, mesh.x[right], mesh.y[right], mesh.x[w], mesh.y[w])
-    by_left = orient(x, y, mesh.x[left], mesh.y[left], mesh.x[w], mesh.y[w])
+    """Part what a window shows among the two sides behind it. Return the number of new windows.
+
+    ``e`` is the half-edge behind the window; it runs from left to right as P sees it, so its next
+    side is the right one. ``w`` is the vertex across from it, and ``by_right`` and ``by_left`` are
+    positive if w lies to the left of the ray by that end of the window.
+    """
     count = 0
     if by_right >= 0.0:
         count = add_window(windows, count, next_side(e), right, w if by_left < 0.0 else left)

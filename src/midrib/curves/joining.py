@@ -1,0 +1,173 @@
+"""The chain of the middles of radii: its end points, shortest paths between them, its heights.
+
+    P0      P1     P2     P3       main curve, stations P
+----+-------+------+------+----
+    :       :      :      :        minimal radii PQ
+.S..S.......S......S......S..      the curve: middles S, and one point for each end
+    :       :      :      :
+----+-------+------+------+----
+    Q0      Q1     Q2     Q3       auxiliary curve
+"""
+
+from typing import Literal, NamedTuple, TypeAlias
+
+import numpy as np
+import shapely
+
+from midrib.curves.radii import EndClearance, Radii
+from midrib.errors import InvalidAreaError, ParameterError
+from midrib.kernels import joining as kernel
+from midrib.kernels.radii import draw_radii
+from midrib.layout import EndPoints, Layout
+from midrib.types import Floats, Ints
+
+__all__ = ["EndRule", "Path", "check_ends", "join_middles"]
+
+EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
+RULES = ("main", "caps", "radii")
+NO_ENDS = EndPoints(
+    np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2), dtype=np.intp), np.empty(0)
+)
+
+
+class Path(NamedTuple):
+    """The finished chain: points, Z, and the number of loops cut out."""
+
+    points: Floats  # (m, 2)
+    height: Floats | None  # (m,) Z
+    loops: int
+
+
+def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
+    """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
+
+    Radii that never turn back cut an area without holes into pieces in order, so that the chain
+    has no loops; radii that lie on each other or on the boundary are the exception to that.
+    """
+    ends = end_points(layout, rule)
+    points, source, loops = kernel.join_middles(
+        layout.mesh, radii.points, radii.at, ends.point, ends.origin, ends.at, *layout.scale
+    )
+    if rule not in RULES and len(ends.point):
+        refuse_ends_outside(ends, points, source, len(radii.points) + 2)
+    if points.shape[0] < 2:
+        x, y = radii.points[0, :2]
+        msg = f"the curve is one point, ({x:.12g}, {y:.12g}); a line needs two"
+        raise InvalidAreaError(msg)
+    return Path(points, height_along(layout, radii, points, source, ends), loops)
+
+
+def check_ends(ends: EndRule, clearance: EndClearance) -> None:
+    """Refuse end rules and clearances that do not exist."""
+    is_pair = isinstance(ends, tuple | list) and len(ends) == 2
+    if not (is_pair or ends is None or (isinstance(ends, str) and ends in RULES)):
+        msg = f"ends is {ends!r}, expected 'main', 'caps', 'radii', a pair of points or None"
+        raise ParameterError(msg)
+    is_length = isinstance(clearance, int | float) and not isinstance(clearance, bool)
+    if is_length and 0.0 <= float(clearance) < np.inf:  # type: ignore[arg-type]
+        return
+    if clearance is not None and clearance not in ("station", "proportional"):
+        msg = (
+            f"end_clearance is {clearance!r}, expected 'station', 'proportional', a length or None"
+        )
+        raise ParameterError(msg)
+
+
+def end_points(layout: Layout, ends: EndRule) -> EndPoints:
+    """Return the chain's two end points by rules 1 to 4 of the paper's section 4, or none."""
+    main = layout.main
+    if ends is None:
+        return NO_ENDS
+    if ends == "caps":
+        return layout.middle
+    if ends == "main":
+        return vertex_ends(layout, main.vertex[[0, -1]])
+    if ends == "radii":
+        return radius_ends(layout)
+    pair = np.array([coordinates_of(point) for point in ends])
+    return EndPoints(
+        pair, pair, np.array([(main.side[i], -1) for i in (0, -1)]), np.full(2, np.nan)
+    )
+
+
+def coordinates_of(point: object) -> tuple[float, float]:
+    """Coordinates of a Point or of a pair of numbers."""
+    values = point if isinstance(point, tuple | list | np.ndarray) else ()
+    if isinstance(point, shapely.Point) and not point.is_empty:
+        values = (point.x, point.y)
+    is_pair = len(values) == 2 and all(isinstance(v, int | float | np.number) for v in values)
+    if not is_pair or not np.isfinite([float(v) for v in values]).all():
+        msg = f"ends has {point!r}, expected a Point or two finite numbers"
+        raise ParameterError(msg)
+    return float(values[0]), float(values[1])
+
+
+def vertex_ends(layout: Layout, v: Ints) -> EndPoints:
+    """Return two mesh vertices as end points."""
+    point = np.column_stack([layout.mesh.x[v], layout.mesh.y[v]])
+    height = np.full(2, np.nan) if layout.height is None else layout.height[v]
+    return EndPoints(point, point, np.column_stack([layout.mesh.door[v], v]), height)
+
+
+def radius_ends(layout: Layout) -> EndPoints:
+    """Rule 3: middles of the radii from the main curve's ends to segments apart from them."""
+    main, auxiliary = layout.main, layout.auxiliary
+    ends = vertex_ends(layout, main.vertex[[0, -1]])
+    low, high = np.full(2, -np.inf), np.full(2, np.inf)
+    if layout.shares_start:
+        low[0] = auxiliary.arc[1]
+    if layout.shares_end:
+        high[1] = auxiliary.arc[-2]
+    side = main.side[[0, -1]]
+    drawn = draw_radii(
+        layout.mesh, main, auxiliary, ends.point, side, ends.at[:, 1], low, high, 0.0, *layout.scale
+    )
+    found, first = np.unique(drawn.at[:, 0], return_index=True)
+    for i, name in enumerate(("start", "end")):
+        if i not in found:
+            x, y = ends.point[i]
+            msg = (
+                f"ends='radii' finds no radius at the {name} of the main curve, "
+                f"({x:.12g}, {y:.12g}), to a segment that does not touch it"
+            )
+            raise ParameterError(msg)
+    middle = (drawn.points[first, :2] + drawn.points[first, 2:4]) / 2.0
+    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), np.full(2, np.nan))
+
+
+def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: int) -> None:
+    """Refuse end points of the caller's that are not in the area, and so not on the path."""
+    for i, name, row in ((0, "first", 0), (1, "second", count - 1)):
+        is_repeat = points.size > 0 and bool((points[-1] == ends.point[i]).all())
+        if row not in source and not is_repeat:
+            x, y = ends.point[i]
+            msg = f"the {name} of ends, ({x:.12g}, {y:.12g}), lies outside the area"
+            raise ParameterError(msg)
+
+
+def height_along(
+    layout: Layout, radii: Radii, points: Floats, source: Ints, ends: EndPoints
+) -> Floats | None:
+    """Z of every point of the path, None if the area has none.
+
+    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing,
+    in between along the path.
+    """
+    height = layout.height
+    if height is None:
+        return None
+    main, auxiliary = layout.main, layout.auxiliary
+    on_main = np.interp(radii.stations[radii.station], main.arc, height[main.vertex])
+    on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
+    beads = (on_main + on_auxiliary) / 2.0
+    beads = np.concatenate([ends.height[:1], beads, ends.height[1:]])
+    z = np.where(
+        source < 0,
+        height[np.where(source < 0, -1 - source, 0)],
+        np.append(beads, np.nan)[np.maximum(source, 0)],
+    )
+    unknown = np.isnan(z)
+    if unknown.any() and not unknown.all():
+        along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
+        z[unknown] = np.interp(along[unknown], along[~unknown], z[~unknown])
+    return z
