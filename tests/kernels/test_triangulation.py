@@ -9,7 +9,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import LineString, Polygon, box
+from shapely import LineString, Polygon, affinity, box
 
 from midrib.kernels.mesh import Mesh
 from midrib.layout import Boundary, boundary_of
@@ -213,3 +213,11 @@ def test_rough_rivers_are_covered_exactly(seed: int) -> None:
         np.concatenate([np.column_stack([x, low]), np.column_stack([x, low + high])[::-1]])
     )
     check_mesh(area)
+
+
+@pytest.mark.parametrize("turn", [0.1, 0.3, 0.7, 1.9])
+def test_straight_banks_get_no_fans_of_slivers(turn: float) -> None:
+    """Their vertices lie on one line up to rounding, where the circle test cannot tell."""
+    area = shapely.segmentize(box(0, 0, 400, 40), 0.1)
+    _, mesh = mesh_of(affinity.rotate(area, turn, origin=(0, 0), use_radians=True))
+    assert np.bincount(mesh.tri).max() <= 16

@@ -103,11 +103,11 @@ def exact_sum_sign(terms: Floats) -> float:
 @njit()
 def in_circle(
     ax: float, ay: float, bx: float, by: float, cx: float, cy: float, px: float, py: float
-) -> bool:
-    """Whether p is inside the circle through a, b, c (a left turn) beyond rounding error.
+) -> float:
+    """Positive if p is inside the circle through a, b, c (a left turn), negative if outside.
 
-    Points too near to the circle to tell count as outside. That is enough for flipping edges:
-    a flip that this test asks for is always possible, and the answer only affects quality.
+    0 where p is too near to the circle to tell in plain floating point: the answer only affects
+    the quality of a triangulation. A flip that a positive answer asks for is always possible.
     """
     ax, ay, bx, by, cx, cy = ax - px, ay - py, bx - px, by - py, cx - px, cy - py
     bc_1, bc_2 = bx * cy, cx * by
@@ -118,4 +118,4 @@ def in_circle(
     size = (
         aa * (abs(bc_1) + abs(bc_2)) + bb * (abs(ca_1) + abs(ca_2)) + cc * (abs(ab_1) + abs(ab_2))
     )
-    return det > CIRCLE_BOUND * size
+    return det if abs(det) > CIRCLE_BOUND * size else 0.0

@@ -118,6 +118,32 @@ def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: 
     return -1
 
 
+@njit(inline=True)
+def should_flip(
+    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
+) -> bool:
+    """Whether c-d is the better diagonal of the quadrilateral a d b c, of which a-b is an edge.
+
+    Four vertices of one straight bank lie on a circle up to rounding. Left alone, slivers as long
+    as the bank would stay, and walks through them make the whole quadratic: there a much shorter
+    diagonal is taken, if it lies inside.
+    """
+    inside = in_circle(ax, ay, bx, by, cx, cy, dx, dy)
+    if inside != 0.0:
+        return inside > 0.0
+    old = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
+    new = (cx - dx) * (cx - dx) + (cy - dy) * (cy - dy)
+    return 2.0 * new < old and is_convex(ax, ay, bx, by, cx, cy, dx, dy)
+
+
+@njit()
+def is_convex(
+    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
+) -> bool:
+    """Whether a and b lie strictly on either side of c-d, the diagonal across the edge a-b."""
+    return orient(ax, ay, dx, dy, cx, cy) > 0.0 and orient(dx, dy, bx, by, cx, cy) > 0.0
+
+
 @njit()
 def legalise(
     p: int,
@@ -130,7 +156,7 @@ def legalise(
     segment: Ints,
     out: Ints,
 ) -> None:
-    """Flip the edges across from the new vertex p until no circle holds it."""
+    """Flip the edges across from the new vertex p as long as one should be; p gets each."""
     while size > 0:
         size -= 1
         e = stack[size]
@@ -138,7 +164,7 @@ def legalise(
         if f < 0:
             continue
         a, b, d = tri[e], tri[f], tri[previous_side(f)]
-        if in_circle(x[a], y[a], x[b], y[b], x[p], y[p], x[d], y[d]):
+        if should_flip(x[a], y[a], x[b], y[b], x[p], y[p], x[d], y[d]):
             first, second = e - e % 3, f - f % 3
             flip(e, tri, twin, segment, out)
             stack[size], stack[size + 1] = first, second
@@ -360,10 +386,7 @@ def force_segment(
             u, v = crossed[2 * at], crossed[2 * at + 1]
             e = find_side(u, v, tri, twin, out)
             c, d = tri[previous_side(e)], tri[previous_side(twin[e])]
-            if (
-                orient(x[u], y[u], x[d], y[d], x[c], y[c]) > 0.0
-                and orient(x[d], y[d], x[v], y[v], x[c], y[c]) > 0.0
-            ):
+            if is_convex(x[u], y[u], x[v], y[v], x[c], y[c], x[d], y[d]):
                 flip(e, tri, twin, segment, out)
                 ends_meet = c in (a, b) or d in (a, b)
                 side_c = orient(x[a], y[a], x[b], y[b], x[c], y[c])
@@ -406,7 +429,7 @@ def restore_delaunay(
                 continue
             a, b, c = tri[e], tri[next_side(e)], tri[previous_side(e)]
             d = tri[previous_side(twin[e])]
-            if in_circle(x[a], y[a], x[b], y[b], x[c], y[c], x[d], y[d]):
+            if should_flip(x[a], y[a], x[b], y[b], x[c], y[c], x[d], y[d]):
                 flip(e, tri, twin, segment, out)
                 made[2 * i], made[2 * i + 1] = c, d
                 calm = False
