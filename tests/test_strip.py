@@ -122,6 +122,12 @@ def test_the_area_says_which_way_the_auxiliary_curve_runs(turned: bool) -> None:
     assert curve.on_auxiliary.tolist() == [[2.0, 0.0]]
 
 
+def test_curves_may_miss_their_areas_boundary_by_rounding() -> None:
+    strip = Strip(line("1e-12 -1e-12, 10 0"), line("-1e-12 2, 10 2"), rectangle(10.0, 2.0))
+    made = minimal_radii(strip, ends="caps").line
+    assert made.normalize().simplify(1e-9).equals_exact(line("0 1, 10 1"), 1e-9)
+
+
 def test_an_area_with_holes_is_taken_as_it_is() -> None:
     area = VALID["three_islands"]
     strip = Strip(line("0 0, 20 0"), line("0 4, 20 4"), area)

@@ -7,13 +7,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from midrib import measures
     from midrib.curves.collapse import Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
-__all__ = ["Curve", "Problem", "Strip", "collapse", "methods", "minimal_radii", "split"]
+__all__ = ["Curve", "Problem", "Strip", "collapse", "measures", "methods", "minimal_radii", "split"]
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
@@ -28,6 +29,8 @@ HOME = {
 
 def __getattr__(name: str) -> object:
     """Import a public name from the module it lives in."""
+    if name == "measures":  # a module itself
+        return import_module("midrib.measures")
     if name not in HOME:
         msg = f"module 'midrib' has no attribute {name!r}"
         raise AttributeError(msg)

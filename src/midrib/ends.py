@@ -78,10 +78,17 @@ def lay_out_ends(
     return lay_out(boundary, places, np.array([start.share, stop.share]), scale, main)
 
 
-def end_at(boundary: Boundary, point: Floats, scale: Scale) -> End:
-    """Return the place of the shell nearest to a point (in the area's units)."""
+def end_at(boundary: Boundary, point: Floats, scale: Scale, near: float = 0.0) -> End:
+    """Return the place of the shell nearest to a point (in the area's units).
+
+    A vertex that is not farther than ``near`` from the point is that place.
+    """
     x, y = (c[boundary.order] * s for c, s in zip(boundary.mesh[:2], scale, strict=True))
     px, py = point[0] * scale[0], point[1] * scale[1]
+    from_vertices = (x - px) ** 2 + (y - py) ** 2
+    k = int(np.argmin(from_vertices))
+    if from_vertices[k] <= near * near:
+        return End(k, k)
     dx, dy = np.roll(x, -1) - x, np.roll(y, -1) - y
     share = ((px - x) * dx + (py - y) * dy) / (dx * dx + dy * dy)
     share = np.clip(share, 0.0, 1.0)

@@ -103,8 +103,9 @@ class Strip:
         middle = shapely.get_coordinates(self.main.interpolate(0.5, normalized=True))
         corners = shapely.get_coordinates([self.main, self.auxiliary])
         n, count = len(boundary.order), len(self.main.coords)
+        near = ON_BOUNDARY * diagonal(self.area)
         first, last, first_beside, last_beside, halfway = (
-            end_at(boundary, point, PLANE)
+            end_at(boundary, point, PLANE, near)
             for point in (corners[0], corners[count - 1], corners[count], corners[-1], middle[0])
         )
         for end, other in ((first, first_beside), (last, last_beside)):
@@ -301,7 +302,7 @@ def check_division(
         If there is none, with the rule that is broken.
     """
     shell = shapely.LineString(area.exterior.coords)
-    near = ON_BOUNDARY * float(np.hypot(*np.ptp(shapely.get_coordinates(shell), axis=0)))
+    near = ON_BOUNDARY * diagonal(area)
     for curve, name in ((main, "main"), (ways[0], "auxiliary")):
         place = far_from(curve, shell, near)
         if place is not None:
@@ -321,6 +322,12 @@ def check_division(
         "straight cap"
     )
     raise InvalidAreaError(msg)
+
+
+def diagonal(area: Polygon) -> float:
+    """Length of the diagonal of an area's bounds."""
+    x_low, y_low, x_high, y_high = area.bounds
+    return float(np.hypot(x_high - x_low, y_high - y_low))
 
 
 def far_from(line: LineString, other: LineString, near: float) -> "Floats | None":

@@ -214,6 +214,13 @@ def test_jumps_are_between_the_stations_where_q_leaps() -> None:
     assert tied.jumps.tolist() == [5.0]
 
 
+def test_the_end_clearance_leads_q_without_jumps() -> None:
+    """The auxiliary curve's first segment is three times as long as the main one's: Q is fast."""
+    strip = strip_of("0 0, 10 0, 40 1", "0 0, 0 30, 40 30")
+    curve = minimal_radii(strip, spacing=0.5, vertices=False)
+    assert curve.jumps.size == 0
+
+
 def test_hidden_nearest_point_is_passed_over() -> None:
     """A wall from below hides the nearest point; the ray past its top meets the far bank."""
     strip = strip_of("0 0, 4 0, 4 2, 5 2, 5 0, 10 0", "0 3, 6 3, 6 1, 7 1, 7 3, 10 3")

@@ -51,7 +51,7 @@ def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
     if rule not in RULES and len(ends.point):
         refuse_ends_outside(ends, points, source, len(radii.points) + 2)
     if points.shape[0] < 2:
-        x, y = radii.points[0, :2]
+        x, y = points[0]
         msg = f"the curve is one point, ({x:.12g}, {y:.12g}); a line needs two"
         raise InvalidAreaError(msg)
     return Path(points, height_along(layout, radii, points, source, ends), loops)

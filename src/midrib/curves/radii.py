@@ -6,7 +6,7 @@ import numpy as np
 
 from midrib.curves.stations import StationRule, Stations
 from midrib.kernels import radii as kernel
-from midrib.kernels.boxtree import GRAZE
+from midrib.kernels.boxtree import GRAZE, LIMIT
 from midrib.layout import Layout
 from midrib.types import Bools, Floats, Ints
 
@@ -193,12 +193,13 @@ def jumps_of(radii: Radii) -> Floats:
     """Stations at which Q jumps: halfway between two stations, or a station whose radii tie.
 
     Q moves along the auxiliary curve at most as fast as P along the main one, except behind a
-    grazing vertex; a faster step is a jump.
+    grazing vertex or at the end clearance; any other faster step is a jump.
     """
     at = radii.stations[radii.station]
     step = np.diff(at)
     move = np.abs(np.diff(radii.arc))
-    behind = (radii.kind[:-1] == GRAZE) & (radii.kind[1:] == GRAZE)
+    before, after = radii.kind[:-1], radii.kind[1:]
+    led = ((before == GRAZE) & (after == GRAZE)) | (before == LIMIT) | (after == LIMIT)
     slack = JUMP_SLACK * (radii.stations[-1] + (radii.arc.max() if radii.arc.size else 0.0))
-    jump = (move > step * (1.0 + JUMP_SLACK) + slack) & ~behind
+    jump = (move > step * (1.0 + JUMP_SLACK) + slack) & ~led
     return np.unique((at[:-1][jump] + at[1:][jump]) / 2.0)

@@ -114,10 +114,9 @@ def draw_radii(
             total += 1
             continue
         # 3. Where it does not, or there are several, P looks around.
-        count = 0
-        for bound in (seen, np.inf):
-            if count == 0:
-                view, count = look(mesh, goal, spot, low[i], high[i], bound, view)
+        view, count = look(mesh, goal, spot, low[i], high[i], seen, view)
+        if count == 0 and seen < np.inf:
+            view, count = look(mesh, goal, spot, low[i], high[i], np.inf, view)
         count = keep_ties(goal.tie, view, count)
         while total + count > at.shape[0]:
             found, at = twice(found), twice_ints(at)
