@@ -23,6 +23,22 @@ class EndRule(StrEnum):
     none = "none"
 
 
+class Centring(StrEnum):
+    """Ways of centring a line."""
+
+    none = "none"
+    symmetric = "symmetric"
+    centred = "centred"
+
+
+class Mean(StrEnum):
+    """Means of the two curves of a symmetric line."""
+
+    radii = "radii"
+    proportional = "proportional"
+    same_height = "same-height"
+
+
 def collapse(
     source: Annotated[
         Path, typer.Argument(metavar="IN", help="Vector file with areas.", show_default=False)
@@ -76,11 +92,40 @@ def collapse(
         ),
     ] = None,
     vertices: Annotated[
-        bool,
+        bool | None,
         typer.Option(
-            metavar="", help="Radii at the vertices of the side too.", rich_help_panel=LINE
+            metavar="",
+            help="Radii at the vertices of the side too; yes, unless the line is centred.",
+            rich_help_panel=LINE,
+            show_default=False,
         ),
-    ] = True,
+    ] = None,
+    centring: Annotated[
+        Centring,
+        typer.Option(
+            metavar="HOW",
+            help="centred: equally far from both sides; symmetric: mean of the two curves from "
+            "either side; none: the paper's curve.",
+            rich_help_panel=LINE,
+        ),
+    ] = Centring.centred,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH",
+            help="How far off the middle a centred line may be; a 200th of the mean width unless "
+            "you say otherwise.",
+            rich_help_panel=LINE,
+        ),
+    ] = None,
+    mean: Annotated[
+        Mean | None,
+        typer.Option(
+            metavar="NAME",
+            help="Mean of a symmetric line: radii, proportional, same-height.",
+            rich_help_panel=LINE,
+        ),
+    ] = None,
     ends: Annotated[
         EndRule,
         typer.Option(
@@ -140,10 +185,15 @@ def collapse(
         options: dict[str, Any] = {
             "ends": None if ends is EndRule.none else ends.value,
             "end_clearance": clearance(end_clearance, features.crs),
-            "vertices": vertices,
+            "centring": centring.value,
         }
-        if spacing is not None:
-            options["spacing"] = length_in(spacing, features.crs, "--spacing")
+        for name, text in (("spacing", spacing), ("tolerance", tolerance)):
+            if text is not None:
+                options[name] = length_in(text, features.crs, f"--{name}")
+        if vertices is not None:
+            options["vertices"] = vertices
+        if mean is not None:
+            options["mean"] = mean.value
         if count is not None:
             options["count"] = count
         if percent is not None:

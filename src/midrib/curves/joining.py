@@ -18,10 +18,11 @@ from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels import joining as kernel
 from midrib.kernels.radii import draw_radii
+from midrib.kernels.trunk import trace_trunk
 from midrib.layout import EndPoints, Layout
 from midrib.types import Floats, Ints
 
-__all__ = ["EndRule", "Path", "check_ends", "join_middles"]
+__all__ = ["EndRule", "Path", "check_ends", "heights_of", "join_middles"]
 
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
 RULES = ("main", "caps", "radii")
@@ -31,30 +32,53 @@ NO_ENDS = EndPoints(
 
 
 class Path(NamedTuple):
-    """The finished chain: points, Z, and the number of loops cut out."""
+    """The finished chain."""
 
     points: Floats  # (m, 2)
     height: Floats | None  # (m,) Z
-    loops: int
+    radius: Ints  # (m,) the radius that each point is on, or -1
+    middles: Floats  # (k, 2) the point of each radius
+    loops: int  # how many were cut out
+
+    @property
+    def on_radii(self) -> Ints:
+        """Rows of the points that are on radii."""
+        return np.flatnonzero(self.radius >= 0)
 
 
-def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
+def join_middles(
+    layout: Layout, radii: Radii, rule: EndRule, *, centred_within: float | None = None
+) -> Path:
     """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
 
     Radii that never turn back cut an area without holes into pieces in order, so that the chain
     has no loops; radii that lie on each other or on the boundary are the exception to that.
+    With ``centred_within`` (a length) the chain goes through the points of the radii that are
+    equally far from both banks, and is nowhere probed to be farther than that from such a point.
     """
     ends = end_points(layout, rule)
-    points, source, loops = kernel.join_middles(
-        layout.mesh, radii.points, radii.at, ends.point, ends.origin, ends.at, *layout.scale
-    )
+    strung = radii.points, radii.at, ends.point, ends.origin, ends.at
+    if centred_within is None:
+        points, source, loops, beads = kernel.join_middles(layout.mesh, *strung, *layout.scale)
+    else:
+        points, source, loops, beads = trace_trunk(
+            layout.mesh, layout.main, layout.auxiliary, *strung, centred_within, *layout.scale
+        )
     if rule not in RULES and len(ends.point):
         refuse_ends_outside(ends, points, source, len(radii.points) + 2)
     if points.shape[0] < 2:
         x, y = points[0]
         msg = f"the curve is one point, ({x:.12g}, {y:.12g}); a line needs two"
         raise InvalidAreaError(msg)
-    return Path(points, height_along(layout, radii, points, source, ends), loops)
+    first, k = len(ends.point) // 2, len(radii.points)
+    is_radius = (source >= first) & (source < first + k)
+    return Path(
+        points,
+        height_along(layout, radii, points, source, ends),
+        np.where(is_radius, source - first, -1),
+        beads[first : first + k],
+        loops,
+    )
 
 
 def check_ends(ends: EndRule, clearance: EndClearance) -> None:
@@ -150,8 +174,7 @@ def height_along(
 ) -> Floats | None:
     """Z of every point of the path, None if the area has none.
 
-    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing,
-    in between along the path.
+    Of a point on a radius, the mean of the two curves' heights.
     """
     height = layout.height
     if height is None:
@@ -161,6 +184,17 @@ def height_along(
     on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
     beads = (on_main + on_auxiliary) / 2.0
     beads = np.concatenate([ends.height[:1], beads, ends.height[1:]])
+    return heights_of(layout, points, source, beads)
+
+
+def heights_of(layout: Layout, points: Floats, source: Ints, beads: Floats | None) -> Floats | None:
+    """Z of every point of a path that joins beads of known Z (NaN if not); None without.
+
+    Of a mesh vertex, its own; of a point that is neither, in between along the path.
+    """
+    height = layout.height
+    if height is None or beads is None:
+        return None
     z = np.where(
         source < 0,
         height[np.where(source < 0, -1 - source, 0)],

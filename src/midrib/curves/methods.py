@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
-from midrib.curves.joining import check_ends, join_middles
-from midrib.curves.radii import draw_radii
-from midrib.curves.stations import station_rule
-from midrib.errors import InvalidAreaError, ParameterError
+from midrib.curves.construction import CENTRED_WITHIN, Construction
+from midrib.errors import ParameterError
+from midrib.kernels.collapsing import collapse_rings
 from midrib.layout import Scale
+from midrib.ragged import normalised
 from midrib.strip import divide
 
 if TYPE_CHECKING:
@@ -15,10 +15,9 @@ if TYPE_CHECKING:
 
     from shapely import LineString
 
-    from midrib.kernels.rings import Rings
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
-__all__ = ["Finder", "Found", "Method", "finder_of", "methods"]
+__all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of", "methods"]
 
 
 class Found(NamedTuple):
@@ -29,7 +28,7 @@ class Found(NamedTuple):
     loops: int
 
 
-Finder: TypeAlias = "Callable[[Rings, Floats | None, LineString | None, Scale], Found]"
+Finder: TypeAlias = "Callable[[Floats, Ints, LineString | None, Scale], Found]"
 
 
 @dataclass(frozen=True)
@@ -44,26 +43,33 @@ class Method:
     finder: "Callable[..., Finder]"
 
 
-def minimal_radii_finder(
-    *,
-    ends: Any = "caps",
-    end_clearance: Any = "proportional",
-    skip: Any = "bays",
-    **stations: Any,
-) -> "Finder":
+def construction_of_collapse(
+    *, ends: Any = "caps", centring: Any = "centred", **options: Any
+) -> Construction:
+    """Return the construction of ``collapse``, with its own defaults.
+
+    The trunk does not enter bays, nor do its points collapse into a shared end.
+    """
+    usual: dict[str, Any] = {} if centring != "none" else {"skip": "bays"}
+    if centring == "centred":
+        usual = {"end_clearance": None}
+    return Construction(ends=ends, centring=centring, **(usual | options))
+
+
+def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
-    check_ends(ends, end_clearance)
-    rule = station_rule(skip=skip, **stations)
+    construction = construction_of_collapse(**options)
+    is_usual = not options
 
     def find(
-        rings: "Rings", height: "Floats | None", along: "LineString | None", scale: Scale
+        coordinates: "Floats", offsets: "Ints", along: "LineString | None", scale: Scale
     ) -> Found:
-        layout = divide(rings, height, scale, along=along)
-        radii = draw_radii(layout, rule, end_clearance)
-        if len(radii.points) == 0:
-            msg = "no station of the main curve sees anything of the auxiliary curve"
-            raise InvalidAreaError(msg)
-        path = join_middles(layout, radii, ends)
+        if is_usual and along is None and coordinates.shape[1] == 2:
+            is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
+            if is_done:
+                return Found(points, None, loops)
+        rings, height = normalised(coordinates, offsets)
+        _, path = construction.of(divide(rings, height, scale, along=along))
         return Found(path.points, path.height, path.loops)
 
     return find
