@@ -23,6 +23,13 @@ class EndRule(StrEnum):
     none = "none"
 
 
+class WidthPlace(StrEnum):
+    """Where the width of areas is written."""
+
+    columns = "columns"
+    m = "m"
+
+
 def collapse(
     source: Annotated[
         Path, typer.Argument(metavar="IN", help="Vector file with areas.", show_default=False)
@@ -100,6 +107,15 @@ def collapse(
             rich_help_panel=LINE,
         ),
     ] = "proportional",
+    width: Annotated[
+        WidthPlace,
+        typer.Option(
+            metavar="columns|m",
+            help="Where the width along the line is written. columns: its mean and maximum; m: "
+            "beside them, as the M value of every vertex.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = WidthPlace.columns,
     out_layer: Annotated[
         str | None,
         typer.Option(
@@ -126,14 +142,14 @@ def collapse(
 ) -> None:
     """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.guides import guides_for
-    from midrib.cli.job import check_options, collapse_layer
+    from midrib.cli.job import Results, check_options, collapse_layer
     from midrib.cli.output import Places, draw
     from midrib.cli.report import Report
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, figure)
-    places.check(overwrite=overwrite)
+    places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
@@ -150,7 +166,8 @@ def collapse(
             options["percent"] = percent
         check_options(method, options)
         guides = guides_for(main, source, features)
-        results = collapse_layer(features, method, options, guides, report)
+        results = Results(features, has_m=width is WidthPlace.m)
+        collapse_layer(results, method, options, guides, report)
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
