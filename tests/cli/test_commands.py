@@ -266,3 +266,18 @@ def test_profiles_are_plotted(midrib: Runner, tmp_path: Path) -> None:
     outcome = midrib("profile", source, tmp_path / "out.csv", "--figure", figure)
     assert outcome.code == 0, outcome.err
     assert "<svg" in figure.read_text()
+
+
+@pytest.mark.parametrize("simplify", ["2", "2m", "200cm", "20%"])
+def test_lines_are_simplified_and_smoothed(simplify: str, midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [BENT, STRIP]), tmp_path / "out.gpkg"
+    assert midrib("collapse", source, out, "--simplify", simplify).code == 0
+    plain = read_all(out)[2]
+    assert shapely.get_num_coordinates(plain).tolist() == [3, 2]
+    outcome = midrib("collapse", source, out, "--simplify", simplify, "--smooth", "--overwrite")
+    assert outcome.code == 0
+    _, attributes, lines = read_all(out)
+    assert shapely.get_num_coordinates(lines).tolist() == [10, 2]
+    assert shapely.from_wkt(BENT).covers(lines[0])
+    assert attributes["length"].to_pylist() == shapely.length(lines).tolist()
+    assert lines[0].length < plain[0].length

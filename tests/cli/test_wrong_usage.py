@@ -34,6 +34,19 @@ WRONG: dict[str, tuple[list[str], str]] = {
         ["in.gpkg", "out.gpkg", "--end-clearance", "wide"],
         "--end-clearance is 'wide', expected",
     ),
+    "simplify": (
+        ["in.gpkg", "out.gpkg", "--simplify", "much"],
+        "--simplify is 'much', expected a number",
+    ),
+    "simplify by less than nothing": (
+        ["in.gpkg", "out.gpkg", "--simplify", "-5%"],
+        "simplify is '-5%', expected a length",
+    ),
+    "width": (["in.gpkg", "out.gpkg", "--width", "z"], "'z' is not one of"),
+    "width in parquet": (
+        ["in.gpkg", "out.parquet", "--width", "m"],
+        "OUT 'out.parquet' has no place for M values",
+    ),
     "method": (["in.gpkg", "out.gpkg", "--method", "magic"], "method is 'magic', expected"),
     "main": (["in.gpkg", "out.gpkg", "--main", "x"], "--main is 'x', expected a layer of IN"),
     "main field": (["in.gpkg", "out.gpkg", "--main", "in:x"], "--main names the field 'x'"),

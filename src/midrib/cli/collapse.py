@@ -11,7 +11,7 @@ from midrib.errors import ParameterError
 __all__ = ["collapse"]
 
 CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
-LAYERS, LINE, OUTPUT = "Which features", "How the line is made", "Output"
+LAYERS, LINE, CARE, OUTPUT = "Which features", "How the line is made", "After-care", "Output"
 
 
 class EndRule(StrEnum):
@@ -107,6 +107,24 @@ def collapse(
             rich_help_panel=LINE,
         ),
     ] = "proportional",
+    simplify: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH|PERCENT",
+            help="Leave out vertices as long as the line stays this near to the full one, inside "
+            "the area: 50cm, or 5% of the mean width.",
+            rich_help_panel=CARE,
+        ),
+    ] = None,
+    smooth: Annotated[
+        bool,
+        typer.Option(
+            "--smooth",
+            metavar="",
+            help="Cut the line's corners, inside the area, in three rounds.",
+            rich_help_panel=CARE,
+        ),
+    ] = False,
     width: Annotated[
         WidthPlace,
         typer.Option(
@@ -164,6 +182,10 @@ def collapse(
             options["count"] = count
         if percent is not None:
             options["percent"] = percent
+        if simplify is not None:
+            options["simplify"] = deviation(simplify, features.crs)
+        if smooth:
+            options["smooth"] = True
         check_options(method, options)
         guides = guides_for(main, source, features)
         results = Results(features, has_m=width is WidthPlace.m)
@@ -186,4 +208,17 @@ def clearance(text: str, crs: str | None) -> str | float | None:
         return length_in(text, crs, "--end-clearance")
     except ParameterError as error:
         msg = f"{error}, or station, proportional, none"
+        raise ParameterError(msg) from None
+
+
+def deviation(text: str, crs: str | None) -> str | float:
+    """Read the deviation of a simplified line: a percentage as it stands, or a length."""
+    from midrib.formats.units import length_in
+
+    if text.strip().endswith("%"):
+        return text
+    try:
+        return length_in(text, crs, "--simplify")
+    except ParameterError as error:
+        msg = f"{error}, or a share of the width: 5%"
         raise ParameterError(msg) from None

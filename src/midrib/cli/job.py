@@ -8,6 +8,7 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
+from midrib.curves.aftercare import aftercare
 from midrib.curves.collapse import Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
@@ -43,6 +44,8 @@ class Results:
 
 def check_options(method: str, options: dict[str, Any]) -> None:
     """Refuse a method or an option that there is not, even where no feature needs it."""
+    options = dict(options)
+    aftercare(options.pop("simplify", None), options.pop("smooth", False))
     finder_of(method, **options)
 
 
