@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import shapely
 
+from midrib.curves.heights import heights_inside
 from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels import joining as kernel
@@ -132,7 +133,13 @@ def radius_ends(layout: Layout) -> EndPoints:
             )
             raise ParameterError(msg)
     middle = (drawn.points[first, :2] + drawn.points[first, 2:4]) / 2.0
-    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), np.full(2, np.nan))
+    height = np.full(2, np.nan)
+    if layout.height is not None:
+        on_auxiliary = np.interp(
+            drawn.points[first, 4], auxiliary.arc, layout.height[auxiliary.vertex]
+        )
+        height = (ends.height + on_auxiliary) / 2.0
+    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), height)
 
 
 def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: int) -> None:
@@ -150,8 +157,9 @@ def height_along(
 ) -> Floats | None:
     """Z of every point of the path, None if the area has none.
 
-    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing,
-    in between along the path.
+    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing, or
+    an end of the caller's, that of the mesh there. Where the area has no height, in between along
+    the path.
     """
     height = layout.height
     if height is None:
@@ -166,6 +174,8 @@ def height_along(
         height[np.where(source < 0, -1 - source, 0)],
         np.append(beads, np.nan)[np.maximum(source, 0)],
     )
+    unknown = np.isnan(z)
+    z[unknown] = heights_inside(layout.mesh, height, points[unknown])
     unknown = np.isnan(z)
     if unknown.any() and not unknown.all():
         along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
