@@ -358,8 +358,9 @@ def crossing_corners(cut: Chains, vertex: Ints, share: Floats) -> Ints:
         corners = vertex[np.concatenate([meeting, meeting + 1])]
         corners = corners[share[corners, 0] > 0.0]
         found.append(corners if corners.size else vertex[own])
-    crossing = np.concatenate(found)
-    return crossing[share[crossing, 0] > 0.0]
+    corners = np.concatenate(found)
+    is_cut: Bools = share[corners, 0] > 0.0
+    return corners[is_cut]
 
 
 def proven(new: Chains, old: Chains) -> Chains:

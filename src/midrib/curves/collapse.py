@@ -76,7 +76,8 @@ def collapse(
         length in coordinate units, in metres if geographic; or text, a share of the mean width
         (the area over the line's length): ``"5%"``.
     smooth : bool, default False
-        Cut the line's corners, in three rounds; after simplification.
+        Cut the line's corners, in three rounds; after simplification. Of a line with many vertices
+        it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
         you say otherwise.
