@@ -76,6 +76,12 @@ def test_equal_spacing_ends_with_the_line(spacing: float) -> None:
     assert rows.points[:, 0] == pytest.approx(1.0 + rows.stations)
 
 
+def test_rounding_adds_no_station() -> None:
+    assert 2.1 / 0.3 > 7.0
+    line = LineString([(0.0, 1.0), (2.1, 1.0)])
+    assert len(profile(line, RECTANGLE, spacing=0.3).stations) == 8
+
+
 def test_vertices_are_the_stations_of_their_own() -> None:
     line = collapse(wavy_ribbon(60, 0.5))
     rows = profile(line, wavy_ribbon(60, 0.5))

@@ -171,7 +171,7 @@ def distances(points: "Floats", chain: LineString, scale: "Scale") -> "Floats":
     """Distance of each point to a chain."""
     x, y = (points[:, :2] * scale).T.copy()
     chain_x, chain_y = (shapely.get_coordinates(chain) * scale).T.copy()
-    goes_on = np.arange(chain_x.size) < chain_x.size - 1
+    goes_on = np.ones(chain_x.size, dtype=np.bool_)
     return clearances(
         x, y, np.array([0, x.size]), chain_x, chain_y, goes_on, np.array([0, chain_x.size])
     )

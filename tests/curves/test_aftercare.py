@@ -101,10 +101,28 @@ def test_lines_that_would_cross_keep_their_vertices() -> None:
     line = tended(full, area, simplify=3.5)
     check_tended(line, full, area)
     assert {(5, 3), (5, 2)} < set(line.coords)
+    assert len(line.coords) < len(full.coords)
     assert len(tended(LineString(tooth), area, simplify=3.5).coords) == 2
     assert list(tended(line, area, simplify=3.5).coords) == list(line.coords)
     for options in ({"simplify": 0.5}, {"simplify": 5.0}, {"smooth": True}):
         check_tended(tended(full, area, **options), full, area)
+
+
+def test_corners_whose_cut_would_cross_the_line_stay() -> None:
+    # A finger reaches into the valley, below the cut of its corner.
+    valley, finger = [(-10, 10), (0, 0), (10, 10)], [(0.1, 20), (0.1, 1), (-0.1, 1), (-0.1, 20)]
+    full, area = LineString([*valley, (10, 20), *finger, (-9, 20)]), box(-99, -99, 99, 99)
+    line = tended(full, area, smooth=True)
+    check_tended(line, full, area)
+    assert (0, 0) in line.coords
+    assert len(line.coords) > len(full.coords)
+    assert (0, 0) not in tended(LineString(valley), area, smooth=True).coords
+
+
+def test_corners_at_the_boundary_stay() -> None:
+    for gap in (0.0, 0.01):
+        line = LineString([(0, 5), (5, gap), (10, 5)])
+        assert list(tended(line, box(-9, 0, 19, 10), smooth=True).coords) == list(line.coords)
 
 
 @pytest.mark.parametrize("name", ["L", "U", "comb", "hook", "river_with_island"])
