@@ -11,7 +11,7 @@ from midrib.errors import ParameterError
 __all__ = ["collapse"]
 
 CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
-LAYERS, LINE, OUTPUT = "Which features", "How the line is made", "Output"
+LAYERS, LINE, CARE, OUTPUT = "Which features", "How the line is made", "After-care", "Output"
 
 
 class EndRule(StrEnum):
@@ -37,6 +37,13 @@ class Mean(StrEnum):
     radii = "radii"
     proportional = "proportional"
     same_height = "same-height"
+
+
+class WidthPlace(StrEnum):
+    """Where the width of areas is written."""
+
+    columns = "columns"
+    m = "m"
 
 
 def collapse(
@@ -137,14 +144,41 @@ def collapse(
         ),
     ] = EndRule.caps,
     end_clearance: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="RULE|LENGTH",
             help="What keeps radii out of a tip that both sides share: station, proportional, "
-            "none, or a length.",
+            "none, or a length; proportional, unless the line is centred.",
             rich_help_panel=LINE,
         ),
-    ] = "proportional",
+    ] = None,
+    simplify: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH|PERCENT",
+            help="Leave out vertices as long as the line stays this near to the full one, inside "
+            "the area: 50cm, or 5% of the mean width.",
+            rich_help_panel=CARE,
+        ),
+    ] = None,
+    smooth: Annotated[
+        bool,
+        typer.Option(
+            "--smooth",
+            metavar="",
+            help="Cut the line's corners, inside the area, in three rounds.",
+            rich_help_panel=CARE,
+        ),
+    ] = False,
+    width: Annotated[
+        WidthPlace,
+        typer.Option(
+            metavar="columns|m",
+            help="Where the width along the line is written. columns: its mean and maximum; m: "
+            "beside them, as the M value of every vertex.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = WidthPlace.columns,
     out_layer: Annotated[
         str | None,
         typer.Option(
@@ -171,36 +205,36 @@ def collapse(
 ) -> None:
     """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.guides import guides_for
-    from midrib.cli.job import check_options, collapse_layer
+    from midrib.cli.job import Results, check_options, collapse_layer
     from midrib.cli.output import Places, draw
     from midrib.cli.report import Report
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, figure)
-    places.check(overwrite=overwrite)
+    places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        options: dict[str, Any] = {
-            "ends": None if ends is EndRule.none else ends.value,
-            "end_clearance": clearance(end_clearance, features.crs),
-            "centring": centring.value,
+        given = {
+            "count": count,
+            "percent": percent,
+            "vertices": vertices,
+            "mean": mean and mean.value,
+            "smooth": smooth or None,
+            "spacing": spacing and length_in(spacing, features.crs, "--spacing"),
+            "tolerance": tolerance and length_in(tolerance, features.crs, "--tolerance"),
+            "simplify": simplify and deviation(simplify, features.crs),
         }
-        for name, text in (("spacing", spacing), ("tolerance", tolerance)):
-            if text is not None:
-                options[name] = length_in(text, features.crs, f"--{name}")
-        if vertices is not None:
-            options["vertices"] = vertices
-        if mean is not None:
-            options["mean"] = mean.value
-        if count is not None:
-            options["count"] = count
-        if percent is not None:
-            options["percent"] = percent
+        options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
+        options["centring"] = centring.value
+        options["ends"] = None if ends is EndRule.none else ends.value
+        if end_clearance is not None:
+            options["end_clearance"] = clearance(end_clearance, features.crs)
         check_options(method, options)
         guides = guides_for(main, source, features)
-        results = collapse_layer(features, method, options, guides, report)
+        results = Results(features, has_m=width is WidthPlace.m)
+        collapse_layer(results, method, options, guides, report)
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
@@ -219,4 +253,17 @@ def clearance(text: str, crs: str | None) -> str | float | None:
         return length_in(text, crs, "--end-clearance")
     except ParameterError as error:
         msg = f"{error}, or station, proportional, none"
+        raise ParameterError(msg) from None
+
+
+def deviation(text: str, crs: str | None) -> str | float:
+    """Read the deviation of a simplified line: a percentage as it stands, or a length."""
+    from midrib.formats.units import length_in
+
+    if text.strip().endswith("%"):
+        return text
+    try:
+        return length_in(text, crs, "--simplify")
+    except ParameterError as error:
+        msg = f"{error}, or a share of the width: 5%"
         raise ParameterError(msg) from None

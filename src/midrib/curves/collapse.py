@@ -10,6 +10,7 @@ import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.methods import Finder, finder_of
 from midrib.errors import (
     GeometryTypeError,
@@ -48,6 +49,8 @@ def collapse(
     on_error: Literal["raise", "report"] = "raise",
     along: Any = None,
     geographic: bool | None = None,
+    simplify: float | str | None = None,
+    smooth: bool = False,
     **options: Any,
 ) -> Any:
     """Collapse areas to lines: one line without branches inside each.
@@ -68,6 +71,13 @@ def collapse(
         Whether coordinates are degrees of longitude and latitude. Lengths are then in metres; the
         line is constructed in a plane that is true to scale at the area's middle latitude. Taken
         from the CRS of a GeoSeries, otherwise False.
+    simplify : float or str, optional
+        Leave out vertices as long as the line stays within this distance of the full one: a
+        length in coordinate units, in metres if geographic; or text, a share of the mean width
+        (the area over the line's length): ``"5%"``.
+    smooth : bool, default False
+        Cut the line's corners, in three rounds; after simplification. Of a line with many vertices
+        it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
         you say otherwise.
@@ -92,7 +102,8 @@ def collapse(
     -----
     The two ends come from the area's shape (``midrib.split``), the line from the radii between
     the two sides (``midrib.minimal_radii``). Every line is covered by its area, exactly, or by the
-    repaired area where one was repaired.
+    repaired area where one was repaired. So are simplified and smoothed lines, which keep their
+    ends and do not meet themselves: where a shorter way would leave the area, the vertices stay.
 
     Examples
     --------
@@ -104,7 +115,7 @@ def collapse(
     if on_error not in ("raise", "report"):
         msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
         raise ParameterError(msg)
-    find = finder_of(method, **options)
+    find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
     if series is not None:
@@ -113,7 +124,9 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    lines = collapse_all(array.ravel(), find, guides(along, array.size), bool(geographic), log)
+    lines = collapse_all(
+        array.ravel(), find, guides(along, array.size), bool(geographic), log, care
+    )
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -190,14 +203,21 @@ class Part(NamedTuple):
 
 
 def collapse_all(
-    areas: "Areas", find: Finder, along: "Areas | None", geographic: bool, log: Log
+    areas: "Areas",
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    care: Aftercare,
 ) -> "Areas":
     """Lines of a flat array of areas."""
     parts = list(valid_parts(areas, log))
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    for part, line in zip(parts, lines_of(parts, find, along, geographic, log), strict=True):
+    full = lines_of(parts, find, along, geographic, log)
+    tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
+    for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
     for i, pieces in enumerate(found):

@@ -14,6 +14,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import shapely
 
+from midrib.curves.heights import heights_inside
 from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels import joining as kernel
@@ -72,11 +73,12 @@ def join_middles(
         raise InvalidAreaError(msg)
     first, k = len(ends.point) // 2, len(radii.points)
     is_radius = (source >= first) & (source < first + k)
+    middles = beads[first : first + k]
     return Path(
         points,
-        height_along(layout, radii, points, source, ends),
+        height_along(layout, radii, middles, points, source, ends),
         np.where(is_radius, source - first, -1),
-        beads[first : first + k],
+        middles,
         loops,
     )
 
@@ -156,7 +158,13 @@ def radius_ends(layout: Layout) -> EndPoints:
             )
             raise ParameterError(msg)
     middle = (drawn.points[first, :2] + drawn.points[first, 2:4]) / 2.0
-    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), np.full(2, np.nan))
+    height = np.full(2, np.nan)
+    if layout.height is not None:
+        on_auxiliary = np.interp(
+            drawn.points[first, 4], auxiliary.arc, layout.height[auxiliary.vertex]
+        )
+        height = (ends.height + on_auxiliary) / 2.0
+    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), height)
 
 
 def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: int) -> None:
@@ -170,19 +178,23 @@ def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: in
 
 
 def height_along(
-    layout: Layout, radii: Radii, points: Floats, source: Ints, ends: EndPoints
+    layout: Layout, radii: Radii, middles: Floats, points: Floats, source: Ints, ends: EndPoints
 ) -> Floats | None:
     """Z of every point of the path, None if the area has none.
 
-    Of a point on a radius, the mean of the two curves' heights.
+    Of a point on a radius, what lies between the two curves' heights there; of an end of the
+    caller's, that of the mesh there.
     """
     height = layout.height
     if height is None:
         return None
     main, auxiliary = layout.main, layout.auxiliary
+    from_main = np.hypot(*((middles - radii.points[:, :2]) * layout.scale).T)
+    radius = radii.points[:, 5]
+    share = np.divide(from_main, radius, out=np.full_like(radius, 0.5), where=radius > 0.0)
     on_main = np.interp(radii.stations[radii.station], main.arc, height[main.vertex])
     on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
-    beads = (on_main + on_auxiliary) / 2.0
+    beads = on_main + share * (on_auxiliary - on_main)
     beads = np.concatenate([ends.height[:1], beads, ends.height[1:]])
     return heights_of(layout, points, source, beads)
 
@@ -200,6 +212,8 @@ def heights_of(layout: Layout, points: Floats, source: Ints, beads: Floats | Non
         height[np.where(source < 0, -1 - source, 0)],
         np.append(beads, np.nan)[np.maximum(source, 0)],
     )
+    unknown = np.isnan(z)
+    z[unknown] = heights_inside(layout.mesh, height, points[unknown])
     unknown = np.isnan(z)
     if unknown.any() and not unknown.all():
         along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])

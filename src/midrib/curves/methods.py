@@ -43,23 +43,25 @@ class Method:
     finder: "Callable[..., Finder]"
 
 
-def construction_of_collapse(
-    *, ends: Any = "caps", centring: Any = "centred", **options: Any
-) -> Construction:
+USUAL: dict[str, Any] = {"ends": "caps", "centring": "centred", "end_clearance": None}
+
+
+def construction_of_collapse(**options: Any) -> Construction:
     """Return the construction of ``collapse``, with its own defaults.
 
-    The trunk does not enter bays, nor do its points collapse into a shared end.
+    The trunk does not enter bays, nor do its points collapse into a shared end; other curves leave
+    out stations in bays and keep the end clearance of ``minimal_radii``.
     """
-    usual: dict[str, Any] = {} if centring != "none" else {"skip": "bays"}
-    if centring == "centred":
-        usual = {"end_clearance": None}
-    return Construction(ends=ends, centring=centring, **(usual | options))
+    usual = USUAL
+    if options.get("centring", "centred") != "centred":
+        usual = {"ends": "caps", "skip": "bays"}
+    return Construction(**(usual | options))
 
 
 def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
-    is_usual = not options
+    is_usual = options.items() <= USUAL.items()
 
     def find(
         coordinates: "Floats", offsets: "Ints", along: "LineString | None", scale: Scale

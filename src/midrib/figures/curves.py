@@ -4,7 +4,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import shapely
+from shapely import LineString
 
+from midrib.curves.aftercare import aftercare, tend
 from midrib.curves.collapse import Log, valid_parts
 from midrib.curves.methods import construction_of_collapse
 from midrib.curves.minimal_radii import Curve
@@ -21,8 +23,13 @@ __all__ = ["curves_of"]
 
 def curves_of(
     areas: "Geometries", along: "Geometries | None", geographic: bool, options: dict[str, Any]
-) -> Iterator[tuple[int, Curve]]:
-    """Position of the area and curve of minimal radii, of each part that is not refused."""
+) -> Iterator[tuple[int, Curve, LineString]]:
+    """Position of the area, curve of minimal radii and line, of each part that is not refused.
+
+    The line is the curve's, after its after-care.
+    """
+    options = dict(options)
+    care = aftercare(options.pop("simplify", None), options.pop("smooth", False))
     construction = construction_of_collapse(**options)
     for index, _, polygon in valid_parts(areas, Log(None, strict=False)):
         scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
@@ -30,6 +37,8 @@ def curves_of(
         try:
             layout = divide(*rings_of_area(polygon), scale, along=guide)
             strip = Strip._of_layout(layout, polygon)  # has its scale
-            yield index, Curve(strip, *construction.of(layout))
+            curve = Curve(strip, *construction.of(layout))
         except MidribError:
             continue
+        (line,) = tend([curve.line], [polygon], care, geographic=geographic)
+        yield index, curve, line or curve.line
