@@ -61,9 +61,9 @@ class Axis:
         return trunk.simplify(STRAIGHT * self.case.width)
 
 
-def axis_of(case: Case) -> Axis:
+def axis_of(case: Case, samples_per_width: int = SAMPLES_PER_WIDTH) -> Axis:
     """Sample the boundary of an area and keep what of the Voronoi diagram is inside."""
-    dense = shapely.segmentize(case.area, case.width / SAMPLES_PER_WIDTH)
+    dense = shapely.segmentize(case.area, case.width / samples_per_width)
     rings = [np.asarray(ring.coords)[:-1] for ring in (dense.exterior, *dense.interiors)]
     points = np.concatenate(rings)
     origin = points.mean(axis=0)  # far from it, the diagram would lose digits
