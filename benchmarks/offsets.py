@@ -47,6 +47,8 @@ class Offsets:
     from_ends: float  # the farther of the line's ends from the axis' end
     is_one_line: bool  # a LineString that nowhere meets itself
     is_inside: bool
+    place: tuple[float, float]  # the worst away from the ends, and near to them
+    end_place: tuple[float, float]
 
 
 def offsets_of(case: Case, known: Known, line: BaseGeometry, *, is_exact: bool) -> Offsets:
@@ -63,10 +65,13 @@ def offsets_of(case: Case, known: Known, line: BaseGeometry, *, is_exact: bool) 
         (beside, distances_to(on_line, axis)),
         (np.arange(len(at)), distances_to(on_axis, line)),
     )
+    points = np.concatenate([on_line, on_axis])
     margin = min(w, axis.length / 4.0)
     is_inner = (at > margin) & (at < axis.length - margin)
     inner = [off[is_inner[k]] / width[k[is_inner[k]]] for k, off in ways]
     outer = [off[~is_inner[k]] / w for k, off in ways]
+    index, off = (np.concatenate(both) for both in zip(*ways, strict=True))
+    is_away = is_inner[index]
     tips = ends_of(line, known.points[[0, -1]])
     return Offsets(
         median=larger(inner, 50),
@@ -76,7 +81,17 @@ def offsets_of(case: Case, known: Known, line: BaseGeometry, *, is_exact: bool) 
         is_one_line=isinstance(line, LineString) and bool(line.is_simple),
         is_inside=bool(case.area.covers(line))
         or (not is_exact and line.difference(case.area).length <= OUTSIDE * w),
+        place=place_of_largest(
+            points, np.where(is_away, off / np.maximum(width[index], 1e-9 * w), -1.0)
+        ),
+        end_place=place_of_largest(points, np.where(is_away, -1.0, off)),
     )
+
+
+def place_of_largest(points: Floats, figures: Floats) -> tuple[float, float]:
+    """Return the point that has the largest figure."""
+    x, y = points[np.argmax(figures)]
+    return float(x), float(y)
 
 
 def distances_to(points: Floats, line: BaseGeometry) -> Floats:

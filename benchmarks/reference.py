@@ -82,4 +82,7 @@ def tip_of(diagram: Voronoi, inside: NDArray[np.bool_], end: Floats) -> int:
     sample = np.argmin(((diagram.points - end) ** 2).sum(axis=1))
     cell = np.array(diagram.regions[diagram.point_region[sample]])
     cell = cell[(cell >= 0) & inside[cell]]
+    if cell.size == 0:
+        msg = "no point of the sampled medial axis is next to an end"
+        raise RuntimeError(msg)
     return int(cell[np.argmin(((diagram.vertices[cell] - end) ** 2).sum(axis=1))])

@@ -32,9 +32,10 @@ PAGE = ROOT / "docs" / "ribbons.md"
 OUT = ROOT / "out"
 
 SEEDS = 12  # ribbons of each kind
-SAMPLES = (30, 150)  # of a real area's boundary for each width; more where the trunk is in pieces
+SAMPLES = 20  # of a real area's boundary for each width
+MORE, MOST_SAMPLES = 5, 100_000  # times as many where the trunk is in pieces; all in all
 NEAR = 0.1  # p95 that is still near the trunk, in local widths
-SHEET = 24  # areas of a contact sheet
+SHEET, ZOOM = 24, 2.5  # areas of a contact sheet; widths around the worst place, shown again
 WORST_SHARE = 0.95  # of real areas that are to be near
 
 
@@ -57,6 +58,8 @@ class Run:
     def as_record(self) -> dict[str, Any]:
         """Everything measured, for the results file."""
         numbers = {} if self.offsets is None else asdict(self.offsets)
+        for name in ("place", "end_place"):  # for pictures only
+            numbers.pop(name, None)
         return {
             "area": self.case.family,
             "way": self.way.name,
@@ -87,10 +90,10 @@ def known_axis(ribbon: Ribbon) -> Callable[[BaseGeometry], Known]:
 
 
 def with_width(case: Case, trunk: LineString) -> Known:
-    """Measure the width of an area along its trunk."""
+    """Measure the width of an area along its trunk, holes included."""
     from midrib import measures
 
-    points = shapely.get_coordinates(trunk.segmentize(case.width / SAMPLES[0]))
+    points = shapely.get_coordinates(trunk.segmentize(case.width / SAMPLES))
     return Known(points, measures.width(LineString(points), case.area))
 
 
@@ -122,10 +125,11 @@ def real_run(name: str, area: Any, line: LineString | None, reason: str | None) 
     case = Case(name, shapely.get_num_coordinates(area), area, ends, ends, ends)
     if line is None:
         return Run(case, MIDRIB, None, None, None, reason)
-    for samples in SAMPLES:
+    most = max(1, int(MOST_SAMPLES * case.width / case.area.length))
+    for samples in sorted({min(SAMPLES, most), min(MORE * SAMPLES, most)}):
         try:
             known = with_width(case, axis_of(case, samples).trunk(line))
-        except RuntimeError:  # in pieces: a neck is narrower than the distance of the samples
+        except RuntimeError:  # in pieces where it is narrower than the distance of the samples
             continue
         return Run(case, MIDRIB, line, known, offsets_of(case, known, line, is_exact=True), None)
     return Run(case, MIDRIB, line, None, None, "trunk in pieces")
@@ -231,9 +235,9 @@ REAL = """\
 
 `midrib.collapse(area)` on every area whose rectangle of the same area and perimeter is at least
 five times as long as wide, against the trunk of the medial axis between the line's own ends (from
-the Voronoi diagram of boundary points w / {samples} apart), in widths of the place, farther from
-the ends than w. Degrees are made metres at the area's middle latitude. *not compared*: refused,
-or the sampled trunk is in pieces.
+the Voronoi diagram of boundary points w / {samples} apart, of at most {most}), in widths of the
+place, farther from the ends than w. Degrees are made metres at the area's middle latitude.
+*not compared*: refused, or the sampled trunk is in pieces.
 
 """
 
@@ -261,7 +265,9 @@ def page(
         some = [run for run in runs if run.case.family == kind]
         parts.append(f"## {kind[0].upper()}{kind[1:]}\n\n{kind_table(some, ways)}\n")
     if layers_of_runs:
-        parts.append(REAL.format(samples=SAMPLES[0]) + real_table(layers_of_runs))
+        parts.append(
+            REAL.format(samples=SAMPLES, most=f"{MOST_SAMPLES:,}") + real_table(layers_of_runs)
+        )
     return "".join(parts).rstrip() + "\n"
 
 
@@ -279,12 +285,13 @@ def draw_sheets(runs: Sequence[Run], name: str) -> None:
 
 def panel(run: Run, measure: str) -> Panel:
     """One area with its axis and line, named with a figure."""
-    if run.known is None:
+    if run.known is None or run.offsets is None:
         msg = "a run without an axis has no picture"
         raise ValueError(msg)
     title = f"{run.case.family}: {measure} {getattr(run.offsets, measure):.3f} w"
-    points = run.known.points
-    return Panel(title, run.case.area, points, run.line, points[[0, -1]])
+    points, half = run.known.points, ZOOM * run.case.width
+    x, y = run.offsets.end_place if measure == "ends" else run.offsets.place
+    return Panel(title, run.case.area, points, run.line, points[[0, -1]], (x, y, half))
 
 
 def main() -> None:

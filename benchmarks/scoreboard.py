@@ -196,7 +196,7 @@ def main() -> None:
     print(details([run for run in runs if run.way is MIDRIB]))
     if options.sheet:
         panels = [panel(run) for run in runs if run.way is MIDRIB]
-        draw_sheet(panels, SHEET, columns=4, size=(6.0, 4.5))
+        draw_sheet(panels, SHEET)
 
 
 if __name__ == "__main__":
