@@ -36,7 +36,6 @@ SAMPLES = 20  # of a real area's boundary for each width
 MORE, MOST_SAMPLES = 5, 100_000  # times as many where the trunk is in pieces; all in all
 NEAR = 0.1  # p95 that is still near the trunk, in local widths
 SHEET, ZOOM = 24, 2.5  # areas of a contact sheet; widths around the worst place, shown again
-WORST_SHARE = 0.95  # of real areas that are to be near
 
 
 @dataclass(frozen=True, eq=False)
@@ -224,10 +223,9 @@ axis and from places on the axis to the line; the larger figure counts.
   exact predicates, a rival's but for 1e-9 w).
 
 Ribbons are 40 w long; banks have vertices at random, w / 10 apart on average, uneven ones w / 20
-and w / 2. Roughness
-moves each vertex of both banks across by up to so much. Where there are islands the axis is the
-trunk of the medial axis, on the side where the line passes. Lines with branches are measured as
-they are.
+and w / 2. Roughness moves each vertex of both banks across by up to so much. Where there are
+islands the axis is the trunk of the medial axis, on the side where the line passes. Lines with
+branches are measured as they are.
 
 """
 REAL = """\
@@ -271,6 +269,14 @@ def page(
     return "".join(parts).rstrip() + "\n"
 
 
+def real_record(runs: Sequence[Run]) -> dict[str, list[Any]]:
+    """Figures of the areas of a layer, in its order; None where there are none."""
+    return {
+        name: [None if r.offsets is None else rounded(getattr(r.offsets, name)) for r in runs]
+        for name in MEASURES
+    }
+
+
 def draw_sheets(runs: Sequence[Run], name: str) -> None:
     """Contact sheets of midrib's lines: some at random, and the worst by each measure."""
     drawn = [run for run in runs if run.offsets is not None and run.known is not None]
@@ -312,7 +318,7 @@ def main() -> None:
     everything = list(chain.from_iterable(some for _, some in real))
     if not options.generated:
         about = {"command": COMMAND, "machine": machine(), "versions": versions(), "notes": notes}
-        records = {name: [run.as_record() for run in some] for name, some in real}
+        records = {name: real_record(some) for name, some in real}
         write_json(RESULTS, {**about, "runs": [r.as_record() for r in runs], "real": records})
     print(overview(runs, ways, "median"), overview(runs, ways, "p95"), sep="\n")
     draw_sheets([run for run in runs if run.way is MIDRIB], "ribbons")
