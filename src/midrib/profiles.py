@@ -20,11 +20,12 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiLineString, Polygon
 
-from midrib import measures
 from midrib.curves.collapse import Log, collapse, valid_parts
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
 from midrib.kernels.clearance import clearances
+from midrib.measures import chains
+from midrib.measures.widths import widths
 from midrib.ragged import rings_of_area
 from midrib.strip import PLANE, Strip, divide, split
 
@@ -118,12 +119,9 @@ def profile(
         strip = split(strip)
     scale = degree_lengths(np.array(strip.area.bounds)) if geographic else PLANE
     stations, points = stations_along(line, spacing, geographic)
-    across = measures.widths(
-        points[:, :2],
-        np.zeros(stations.size, dtype=np.intp),
-        object_array([strip.area]),
-        geographic,
-    )
+    one_line = np.zeros(stations.size, dtype=np.intp)
+    at_stations = chains.Chains(points[:, :2], one_line, one_line[1:] == 0)
+    across = widths(at_stations, object_array([strip.area]), geographic)
     left, right = banks(line, strip)
     return Profile(
         stations,
@@ -139,7 +137,7 @@ def stations_along(
 ) -> tuple["Floats", "Floats"]:
     """Arc lengths along a line, and the points there."""
     points = shapely.get_coordinates(line, include_z=line.has_z)
-    steps = np.hypot(*measures.step_vectors(points[:, :2], geographic).T)
+    steps = np.hypot(*chains.step_vectors(points[:, :2], geographic).T)
     arc: Floats = np.concatenate([[0.0], np.cumsum(steps)])
     if spacing is None:
         return arc, points
@@ -259,12 +257,14 @@ def add_widths(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
     >>> add_widths(LineString([(0, 1), (1, 1), (9, 1)]), box(0, 0, 9, 2)).wkt
     'LINESTRING M (0 1 0, 1 1 2, 9 1 0)'
     """
-    flat_lines, flat_areas, like = measures.broadcast(lines, areas)
-    is_whole = measures.is_there(flat_lines) & measures.is_there(flat_areas)
+    flat_lines, flat_areas, like = chains.flat_together(
+        chains.lines_of(lines, "lines"), chains.areas_of(areas, "areas")
+    )
+    is_whole = chains.is_there(flat_lines) & chains.is_there(flat_areas)
     measured = flat_lines.copy()
-    points, owner, _ = measures.vertices(flat_lines)
-    across = measures.widths(points, owner, flat_areas, geographic)
-    first = np.searchsorted(owner, np.arange(flat_lines.size + 1))
+    vertices = chains.vertices(flat_lines)
+    across = widths(vertices, flat_areas, geographic)
+    first = np.searchsorted(vertices.owner, np.arange(flat_lines.size + 1))
     for i in np.flatnonzero(is_whole):
         measured[i] = with_m(flat_lines[i], across[first[i] : first[i + 1]])
     if hasattr(lines, "crs") and hasattr(lines, "index"):

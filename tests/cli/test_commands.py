@@ -196,7 +196,8 @@ def test_width_can_be_the_m_of_vertices(ending: str, midrib: Runner, tmp_path: P
     for wkt, line in zip([STRIP, TWO, BENT], lines, strict=True):
         m = shapely.get_coordinates(line, include_m=True)[:, 2]
         expected = measures.width(shapely.force_2d(line), shapely.from_wkt(wkt))
-        assert m == pytest.approx(expected, abs=1e-9)
+        stored = 1e-4 if ending == "gdb" else 1e-9  # a geodatabase keeps steps of a tenth of a mm
+        assert m == pytest.approx(expected, abs=stored)
     assert float(attributes["width_max"].to_pylist()[0]) == 20.0
 
 

@@ -125,7 +125,11 @@ def trace(
             mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
             qx, qy, t, search,
         )  # fmt: skip
-        if end < 0:
+        near_last = i < n - 1 and is_near(
+            qx, qy, beads.point[n - 1, 0], beads.point[n - 1, 1], banks.slack, scale_x, scale_y
+        )
+        near_path = i < n - 1 and is_near(qx, qy, px, py, banks.slack, scale_x, scale_y)
+        if end < 0 or near_last or (t >= 0 and near_path):
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
@@ -162,8 +166,10 @@ def trace(
                         between, mx, my = middle_of_door(
                             mesh, banks, sleeve, turns, scale_x, scale_y
                         )
-                is_new = (mx != px or my != py) and (mx != qx or my != qy)
-                if between >= 0 and is_new:
+                is_old = is_near(mx, my, px, py, banks.slack, scale_x, scale_y) or is_near(
+                    mx, my, qx, qy, banks.slack, scale_x, scale_y
+                )
+                if between >= 0 and not is_old:
                     goal_at[top, 2] = depth + 1
                     goal[waiting, 0], goal[waiting, 1] = mx, my
                     goal_at[waiting, 0], goal_at[waiting, 1] = between, n
@@ -185,6 +191,14 @@ def trace(
                 count += 1
             t, px, py = end, qx, qy
     return path[:count], source[:count]
+
+
+@njit()
+def is_near(
+    px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
+) -> bool:
+    """Whether two points are nearer than what the trunk's points may be off."""
+    return length((qx - px) * scale_x, (qy - py) * scale_y) <= slack
 
 
 @njit()
