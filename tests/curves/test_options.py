@@ -372,3 +372,24 @@ def test_many_sizes_of_batch_give_the_same() -> None:
         assert np.array_equal(
             shapely.get_coordinates(together[i]), shapely.get_coordinates(collapse([area])[0])
         )
+
+
+README_AREA = Polygon([(0, 0), (40, 2), (80, 0), (80, 9), (40, 12), (0, 10)])
+
+
+@pytest.mark.parametrize("centring", ["none", "symmetric", "centred"])
+@pytest.mark.parametrize("ends", [((1, 5), (79, 5)), ((79, 5), (1, 5)), ((20, 5), (60, 6))])
+def test_a_curve_between_points_of_the_users_does_not_turn_back(
+    centring: Any, ends: tuple[tuple[float, float], tuple[float, float]]
+) -> None:
+    line = minimal_radii(split(README_AREA), ends=ends, centring=centring).line
+    x = shapely.get_coordinates(line)[:, 0]
+    assert (np.diff(x) > 0.0).all() or (np.diff(x) < 0.0).all()
+    assert {line.coords[0], line.coords[-1]} == {tuple(map(float, end)) for end in ends}
+
+
+@pytest.mark.parametrize("power", [600, 1000, -600, -1000])
+def test_sizes_beyond_exact_arithmetic_are_refused(power: int) -> None:
+    large = shapely.affinity.scale(README_AREA, 2.0**power, 2.0**power, origin=(0, 0))
+    with pytest.raises(InvalidAreaError, match=r"largest coordinate|extent is"):
+        collapse(large)

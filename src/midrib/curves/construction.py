@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from midrib.curves.averaging import Mean, average, check_mean
-from midrib.curves.joining import EndRule, check_ends, join_middles
+from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
 from midrib.curves.radii import EndClearance, Radii, draw_radii
 from midrib.curves.stations import Skip, StationRule
 from midrib.errors import InvalidAreaError, ParameterError
@@ -62,21 +62,24 @@ class Construction:
         InvalidAreaError
             If no station sees anything of the auxiliary curve, or the curve is one point.
         """
-        radii = self.radii(layout)
+        radii, ends = between_ends(self.radii(layout), self.ends)
         if self.centring == "symmetric":
             other = layout.swapped()
-            from_other = self.radii(other)
+            from_other, _ = between_ends(self.radii(other), ends)
+            if not len(radii.points) or not len(from_other.points):
+                msg = "no radius is left between the two points of ends, so there is no mean"
+                raise ParameterError(msg)
             return radii, average(
                 layout,
-                (radii, join_middles(layout, radii, self.ends)),
-                (from_other, join_middles(other, from_other, self.ends)),
+                (radii, join_middles(layout, radii, ends)),
+                (from_other, join_middles(other, from_other, ends)),
                 self.mean,
             )
         if self.centring == "centred":
             within = CENTRED_WITHIN * layout.mean_width
             within = within if self.tolerance is None else float(self.tolerance)
-            return radii, join_middles(layout, radii, self.ends, centred_within=within)
-        return radii, join_middles(layout, radii, self.ends)
+            return radii, join_middles(layout, radii, ends, centred_within=within)
+        return radii, join_middles(layout, radii, ends)
 
     def radii(self, layout: "Layout") -> Radii:
         """Radii from a layout's main curve."""

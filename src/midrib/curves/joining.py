@@ -23,7 +23,7 @@ from midrib.kernels.trunk import trace_trunk
 from midrib.layout import EndPoints, Layout
 from midrib.types import Floats, Ints
 
-__all__ = ["EndRule", "Path", "check_ends", "heights_of", "join_middles"]
+__all__ = ["EndRule", "Path", "between_ends", "check_ends", "heights_of", "join_middles"]
 
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
 RULES = ("main", "caps", "radii")
@@ -97,6 +97,43 @@ def check_ends(ends: EndRule, clearance: EndClearance) -> None:
             f"end_clearance is {clearance!r}, expected 'station', 'proportional', a length or None"
         )
         raise ParameterError(msg)
+
+
+def between_ends(radii: Radii, rule: EndRule) -> tuple[Radii, EndRule]:
+    """Return the radii between two end points of the caller's, and these in main's direction.
+
+    A radius counts as between if the line from its point to the next one leads away from the first
+    end, and from the last one to its own leads towards the second. Other rules keep every radius.
+    """
+    if rule is None or isinstance(rule, str):
+        return radii, rule
+    ends = np.array([coordinates_of(point) for point in rule])
+    p, q = radii.points[:, :2], radii.points[:, 2:4]
+    middles = (p + q) / 2.0
+    nearest = [int(np.argmin(squared_distances(end, p, q))) for end in ends]
+    if nearest[0] > nearest[1]:
+        nearest, ends = nearest[::-1], ends[::-1]
+    low, high = nearest[0], nearest[1] + 1
+    step = np.diff(middles, axis=0)
+    while low < len(step) and (ends[0] - middles[low]) @ step[low] > 0.0:
+        low += 1
+    while high > 1 and (ends[1] - middles[high - 1]) @ step[high - 2] < 0.0:
+        high -= 1
+    kept = np.zeros(radii.stations.size, dtype=np.bool_)
+    kept[radii.station[low:high]] = True
+    chosen = radii.chosen(kept[radii.station])
+    return chosen.of_stations(radii.stations[kept], np.cumsum(kept) - 1), tuple(ends)
+
+
+def squared_distances(point: Floats, a: Floats, b: Floats) -> Floats:
+    """Squared distance of one point to each of the segments a b."""
+    along = b - a
+    length_squared = (along**2).sum(axis=1)
+    dot = ((point - a) * along).sum(axis=1)
+    share = np.divide(dot, length_squared, out=np.zeros_like(dot), where=length_squared > 0.0)
+    off = a + np.clip(share, 0.0, 1.0)[:, None] * along - point
+    squared: Floats = (off**2).sum(axis=1)
+    return squared
 
 
 def end_points(layout: Layout, ends: EndRule) -> EndPoints:

@@ -12,12 +12,15 @@ probe that is farthest off is moved onto the trunk and becomes a point of the li
                 \_/
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from midrib.kernels.banks import (
     Banks,
     Lean,
     banks_of,
+    is_level,
     lean_at,
     level_between,
     level_from,
@@ -47,7 +50,23 @@ PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
 SHARE_OF_SLACK = 2.0**-4  # of the tolerance: what points of the trunk may be off it
 DEPTH = 12  # halvings of the way between two radii
+GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
+TINY = 2.0**-1000
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Ends(NamedTuple):
+    """End points that the line has to reach, though they may be off the trunk; in lengths."""
+
+    are_given: bool
+    x0: float
+    y0: float
+    off_0: float
+    reach_0: float
+    x1: float
+    y1: float
+    off_1: float
+    reach_1: float
 
 
 @njit(entry=True)
@@ -100,13 +119,20 @@ def trace_trunk(
             0.5,
         )
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
-    path, source = trace(mesh, banks, beads, tolerance, scale_x, scale_y)
+    ends = ends_of(banks, beads, end.shape[0] > 0, scale_x, scale_y)
+    path, source = trace(mesh, banks, beads, ends, tolerance, scale_x, scale_y)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
 
 
 @njit()
 def trace(
-    mesh: Mesh, banks: Banks, beads: Beads, tolerance: float, scale_x: float, scale_y: float
+    mesh: Mesh,
+    banks: Banks,
+    beads: Beads,
+    ends: Ends,
+    tolerance: float,
+    scale_x: float,
+    scale_y: float,
 ) -> tuple[Floats, Ints]:
     """Return the path from bead to bead, and the bead or (-1 - v) mesh vertex that each point is.
 
@@ -125,11 +151,10 @@ def trace(
             mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
             qx, qy, t, search,
         )  # fmt: skip
-        near_last = i < n - 1 and is_near(
-            qx, qy, beads.point[n - 1, 0], beads.point[n - 1, 1], banks.slack, scale_x, scale_y
-        )
-        near_path = i < n - 1 and is_near(qx, qy, px, py, banks.slack, scale_x, scale_y)
-        if end < 0 or near_last or (t >= 0 and near_path):
+        is_end = ends.are_given and i in (0, n - 1)
+        is_repeat = t >= 0 and is_near(qx, qy, px, py, banks.slack, scale_x, scale_y)
+        hides = not is_end and (is_repeat or is_before_end(ends, qx * scale_x, qy * scale_y))
+        if end < 0 or hides:
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
@@ -147,6 +172,7 @@ def trace(
                     if depth < DEPTH:
                         at, mx, my = worst_probe(
                             banks,
+                            ends,
                             px * scale_x,
                             py * scale_y,
                             qx * scale_x,
@@ -194,6 +220,49 @@ def trace(
 
 
 @njit()
+def ends_of(banks: Banks, beads: Beads, are_given: bool, scale_x: float, scale_y: float) -> Ends:
+    """Return the ends of a path, the first and the last bead if they are."""
+    n = beads.side.size
+    x0, y0, x1, y1 = 0.0, 0.0, 0.0, 0.0
+    off_0, off_1, reach_0, reach_1 = 0.0, 0.0, 0.0, 0.0
+    if are_given:
+        x0, y0 = beads.point[0, 0] * scale_x, beads.point[0, 1] * scale_y
+        x1, y1 = beads.point[n - 1, 0] * scale_x, beads.point[n - 1, 1] * scale_y
+        off_0, reach_0 = off_and_reach(banks, x0, y0)
+        off_1, reach_1 = off_and_reach(banks, x1, y1)
+    return Ends(are_given, x0, y0, off_0, reach_0, x1, y1, off_1, reach_1)
+
+
+@njit()
+def off_and_reach(banks: Banks, x: float, y: float) -> tuple[float, float]:
+    """How far an end is off the trunk, and how far from it the line may still be on its way."""
+    lean = lean_at(banks, x, y)
+    if is_level(lean, banks.slack):
+        return 0.0, banks.slack
+    off = abs(lean.value) / 2.0
+    return off, max(min(GLIDE * off, lean.to_main + lean.to_auxiliary), banks.slack)
+
+
+@njit()
+def is_before_end(ends: Ends, x: float, y: float) -> bool:
+    """Whether a point is so near to an end that the line has not come to the trunk yet."""
+    return ends.are_given and (
+        length(x - ends.x0, y - ends.y0) <= ends.reach_0
+        or length(x - ends.x1, y - ends.y1) <= ends.reach_1
+    )
+
+
+@njit()
+def allowance(ends: Ends, x: float, y: float) -> float:
+    """How far off the trunk a point may be because an end is: less and less away from it."""
+    if not ends.are_given:
+        return 0.0
+    first = 1.0 - length(x - ends.x0, y - ends.y0) / (2.0 * ends.reach_0 + TINY)
+    last = 1.0 - length(x - ends.x1, y - ends.y1) / (2.0 * ends.reach_1 + TINY)
+    return ends.off_0 * max(first, 0.0) + ends.off_1 * max(last, 0.0)
+
+
+@njit()
 def is_near(
     px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
 ) -> bool:
@@ -212,11 +281,11 @@ def with_rows(path: Floats, source: Ints, rows: int) -> tuple[Floats, Ints]:
 
 @njit()
 def worst_probe(
-    banks: Banks, px: float, py: float, qx: float, qy: float, tolerance: float
+    banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Return where (0 at p, 1 at q) the way is farthest off the trunk, and the trunk's point there.
 
-    Where no probe is off by more than the tolerance, or the worst cannot be moved: -1.
+    Where no probe is off by more than is allowed, or the worst cannot be moved: -1.
     """
     span = length(qx - px, qy - py)
     probes, k = 1, 0
@@ -235,6 +304,7 @@ def worst_probe(
         if abs(lean.value) <= tolerance:
             continue
         _, _, off = way_to_level(lean, x, y)
+        off -= allowance(ends, x, y)
         if off > worst:
             worst, at, wx, wy, worst_lean = off, share, x, y, lean
     if at > 0.0:
