@@ -70,8 +70,8 @@ def average(
         z, other_z = path.height[:, None], other_path.height[:, None]
         height = (sampled(z, at, both)[:, 0] + sampled(other_z, other_at, both)[:, 0]) / 2.0
     # The search for a mean begins at the foot of the radius next to it.
-    near = np.searchsorted(at[path.on_radii], np.concatenate([both[:1], both, both[-1:]]))
-    near = path.radius[path.on_radii[np.minimum(near, path.on_radii.size - 1)]]
+    near = np.interp(np.concatenate([both[:1], both, both[-1:]]), at, nearest_radius(path))
+    near = near.astype(np.intp)
     beads = Beads(points, radii.points[near, :2].copy(), radii.at[near, 1], radii.at[near, 2])
     joined, source, loops, _ = join_beads(layout.mesh, beads, *layout.scale)
     if joined.shape[0] < 2:
@@ -84,6 +84,14 @@ def average(
         path.middles,
         path.loops + other_path.loops + loops,
     )
+
+
+def nearest_radius(path: Path) -> Floats:
+    """Return the radius of every point of a path, or that of a point before or after it, or 0."""
+    rows = path.on_radii
+    if rows.size == 0:
+        return np.zeros(len(path.points))
+    return np.interp(np.arange(len(path.points)), rows, path.radius[rows])
 
 
 def sampled(points: Floats, at: Floats, where: Floats) -> Floats:
@@ -124,11 +132,11 @@ def cut_off(layout: Layout, radii: Radii, path: Path) -> Floats:
     """
     cut = radii.stations[radii.station] + radii.arc
     known = path.on_radii
-    arc = arc_of(layout, path)
+    arc, last = arc_of(layout, path), len(path.points) - 1
     at, value = arc[known], cut[path.radius[known]]
-    if not known[0]:
+    if 0 not in known:
         at, value = np.append(0.0, at), np.append(0.0, value)
-    if not known[-1]:
+    if last not in known:
         whole = layout.main.length + layout.auxiliary.length
-        at, value = np.append(at, arc[-1]), np.append(value, whole)
+        at, value = np.append(at, arc[last]), np.append(value, whole)
     return np.maximum.accumulate(np.interp(arc, at, value))
