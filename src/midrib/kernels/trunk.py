@@ -108,10 +108,15 @@ def trace_trunk(
     first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
     loops = Loops(np.empty(0, np.intp), np.zeros(1, np.intp), np.empty(0, np.bool_))
-    path, source = beads.point, np.arange(n)
+    kept = beads_in_order(points[:, 4], first, n)
+    path, source = beads.point[kept], kept
     if has_islands(mesh, main, auxiliary):
-        joined = join_beads(mesh, beads, scale_x, scale_y)
+        some = Beads(beads.point[kept], beads.origin[kept], beads.side[kept], beads.vertex[kept])
+        joined = join_beads(mesh, some, scale_x, scale_y)
         path, source = joined.points, joined.source
+        for k in range(source.size):
+            if source[k] >= 0:
+                source[k] = kept[source[k]] if source[k] < kept.size else n
         loops = loops_of(mesh, main, auxiliary, path)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     for i in range(points.shape[0]):
@@ -131,6 +136,39 @@ def trace_trunk(
 
 
 @njit()
+def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
+    """Return the end beads and those of the most radii whose Q never travel back.
+
+    Radii that do not travel back do not cross, and so have the trunk's points in order; the others
+    come from bays. The longest sequence that does not descend, by patience sorting.
+    """
+    k = arc.size
+    length_at, before = np.empty(k + 1, np.intp), np.full(k, -1, np.intp)
+    longest = 0  # length_at[m]: the last one of a sequence of m + 1 that ends lowest
+    for i in range(k):
+        low, high = 0, longest
+        while low < high:
+            middle = (low + high) // 2
+            if arc[length_at[middle]] <= arc[i]:
+                low = middle + 1
+            else:
+                high = middle
+        if low > 0:
+            before[i] = length_at[low - 1]
+        length_at[low] = i
+        longest = max(longest, low + 1)
+    ends = n - k
+    kept = np.empty(longest + ends, np.intp)
+    row = length_at[longest - 1] if longest > 0 else -1
+    for m in range(longest - 1, -1, -1):
+        kept[first + m] = first + row
+        row = before[row]
+    if ends > 0:
+        kept[0], kept[longest + 1] = 0, n - 1
+    return kept
+
+
+@njit()
 def stops_on(
     mesh: Mesh,
     banks: Banks,
@@ -145,10 +183,10 @@ def stops_on(
     Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
     passes islands on the side where the path does.
     """
-    n = source.size
-    point, at, count = np.empty((n, 2)), np.empty(n, np.intp), 0
+    n, last = source.size, beads.side.size - 1
+    point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
     for k in range(n):
-        if source[k] >= beads.side.size:
+        if source[k] > last:
             continue
         if source[k] >= 0:
             point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
@@ -162,6 +200,10 @@ def stops_on(
             if t >= 0:
                 point[count, 0], point[count, 1], at[count] = x, y, -1 - t
                 count += 1
+    if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
+        point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
+        at[count] = last
+        count += 1
     return point[:count], at[:count]
 
 
