@@ -12,8 +12,9 @@ from pyarrow import csv
 from midrib import measures
 from midrib.cli.app import app
 from midrib.cli.job import with_columns
+from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
-from tests.formats.layers import crs_name, read_all, write
+from tests.formats.layers import RD_NEW, crs_name, read_all, write
 
 STRIP = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0))"
 BENT = "POLYGON ((0 0, 90 0, 90 90, 80 90, 80 10, 0 10, 0 0))"
@@ -141,6 +142,22 @@ def test_columns_that_are_taken_are_numbered_on() -> None:
     taken = pa.table({"length": [1], "Length_2": [2]})
     table = with_columns(taken, {"length": pa.array([3]), "status": pa.array(["ok"])})
     assert table.column_names == ["length", "Length_2", "length_3", "status"]
+
+
+@pytest.mark.parametrize("command", ["collapse", "profile"])
+@pytest.mark.parametrize("ending", ["gpkg", "fgb", "geojson", "parquet"])
+def test_layers_without_attributes_are_layers_too(
+    ending: str, command: str, midrib: Runner, tmp_path: Path
+) -> None:
+    areas = shapely.from_wkt([STRIP, BOW_TIE, BENT])
+    bare = Features("bare", pa.table({}), areas, "geom", "Polygon", RD_NEW)
+    source, out = tmp_path / f"in.{ending}", tmp_path / f"out.{ending}"
+    write_layer(source, bare)
+    assert midrib(command, source, out, "--quiet") == (1, "", "")
+    _, attributes, geometries = read_all(out)
+    if command == "collapse":
+        assert len(geometries) == 2
+        assert attributes.column_names == ["length", "width_mean", "width_max", "status"]
 
 
 def test_spacing_is_the_same_length_in_any_unit(midrib: Runner, tmp_path: Path) -> None:

@@ -143,5 +143,6 @@ def with_columns(table: pa.Table, columns: dict[str, pa.Array]) -> pa.Table:
         free, number = name, 2
         while free in taken:
             free, number = f"{name}_{number}", number + 1
-        table = table.append_column(free, values)
+        # A table without columns has no rows either, however many features it is of.
+        table = table.append_column(free, values) if table.num_columns else pa.table({free: values})
     return table
