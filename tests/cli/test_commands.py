@@ -197,9 +197,10 @@ def test_methods_are_listed(midrib: Runner) -> None:
     assert "minimal-radii  Buczek 2017" in outcome.out
 
 
-def test_figures_are_drawn(midrib: Runner, tmp_path: Path) -> None:
+@pytest.mark.parametrize("case", ["degenerate", "mixed"])
+def test_figures_are_drawn(case: str, midrib: Runner, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    source = write(tmp_path / "in.gpkg", INPUTS["degenerate"][0])
+    source = write(tmp_path / "in.gpkg", INPUTS[case][0])
     figure = tmp_path / "picture.svg"
     assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
     assert "<svg" in figure.read_text()
