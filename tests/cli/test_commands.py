@@ -116,6 +116,27 @@ def test_refused_areas_are_written_as_they_were(
     assert shapely.equals(areas[1], shapely.from_wkt(BOW_TIE)) or ending == "shp"
 
 
+@pytest.mark.parametrize("ending", ["shp", "gdb"])
+def test_refused_features_of_several_kinds_leave_the_lines(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    wkts: list[str | None] = [STRIP, "POINT (1 1)", BOW_TIE, "LINESTRING (0 0, 1 1)"]
+    wkts += ["MULTIPOINT ((1 1), (2 2))", "GEOMETRYCOLLECTION (POINT (1 1))"]
+    source, out = write(tmp_path / "in.geojson", wkts), tmp_path / f"out.{ending}"
+    outcome = midrib("collapse", source, out)
+    assert outcome.code == 1, outcome.err
+    assert "has no place for a GeometryCollection" in outcome.err
+    assert len(read_all(out, "some" if ending == "gdb" else None)[2]) == 1
+    for kind, numbers in {"": [2, 5], "_lines": [3], "_points": [1, 4]}.items():
+        layer = f"some_refused{kind}" if ending == "gdb" else f"out_refused{kind}"
+        place = out if ending == "gdb" else tmp_path / f"{layer}.shp"
+        assert f"{layer}" in outcome.err
+        _, attributes, geometries = read_all(place, layer)
+        assert attributes["number"].to_pylist() == numbers
+        assert all(attributes["reason"].to_pylist())
+        assert shapely.is_missing(geometries).sum() == (1 if kind == "" else 0)
+
+
 def test_nothing_refused_leaves_no_file_of_refusals(midrib: Runner, tmp_path: Path) -> None:
     source = write(tmp_path / "in.gpkg", [STRIP])
     stale = write(tmp_path / "out_refused.parquet", [STRIP])

@@ -75,6 +75,25 @@ def test_single_and_multiple_lines_share_a_layer(ending: str, tmp_path: Path) ->
     )
 
 
+@pytest.mark.parametrize("ending", ["gpkg", "shp", "geojson"])
+def test_single_and_multiple_points_share_a_layer(ending: str, tmp_path: Path) -> None:
+    wkts: list[str | None] = ["POINT (0 0)", "MULTIPOINT ((1 1), (2 2))"]
+    geometries = read_all(write(tmp_path / f"mixed.{ending}", wkts))[2]
+    assert shapely.get_num_coordinates(geometries).tolist() == [1, 2]
+
+
+@pytest.mark.parametrize("ending", ["shp", "gdb"])
+def test_heights_of_some_are_heights_of_all_where_a_format_asks_for_it(
+    ending: str, tmp_path: Path
+) -> None:
+    wkts: list[str | None] = ["LINESTRING (0 0, 1 1)", None, "LINESTRING Z (0 0 5, 1 1 5)"]
+    path = tmp_path / f"z.{ending}"
+    note = write_layer(path, features_of(wkts))[0]
+    assert note.endswith("has a Z for all or for none, it is 0 where there was none")
+    z = shapely.get_coordinates(read_all(path)[2], include_z=True)[:, 2]
+    assert z.tolist() == [0.0, 0.0, 5.0, 5.0]
+
+
 def test_layers_of_one_file_stand_side_by_side(tmp_path: Path) -> None:
     path = tmp_path / "two.gpkg"
     write(path, LINES, layer="one")

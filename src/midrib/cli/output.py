@@ -10,7 +10,14 @@ from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
 from midrib.formats.units import Unit, is_geographic, unit_of
-from midrib.formats.writing import Features, check_free, staged, write_layer
+from midrib.formats.writing import (
+    KINDS,
+    Features,
+    check_free,
+    one_kind_each,
+    staged,
+    write_layer,
+)
 
 if TYPE_CHECKING:
     from midrib.cli.guides import Guides
@@ -39,6 +46,14 @@ class Places(NamedTuple):
             return self.out
         return self.out.with_name(f"{self.out.stem}_refused{self.out.suffix}")
 
+    @property
+    def all_refused(self) -> dict[str, Path]:
+        """Files for refused features by what is added to the name for their kind of geometry."""
+        path = self.refused
+        if path == self.out or not format_of(path).has_one_kind:
+            return {"": path}
+        return {kind: path.with_name(f"{path.stem}{kind}{path.suffix}") for kind in KINDS}
+
     def check(self, *, overwrite: bool, needs_m: bool = False) -> None:
         """Refuse places that cannot be written to, before any work is done.
 
@@ -57,7 +72,7 @@ class Places(NamedTuple):
         if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
             msg = f"OUT {str(self.out)!r} is IN, expected another file"
             raise ParameterError(msg)
-        check_free([self.out, self.refused], "OUT", overwrite=overwrite)
+        check_free([self.out, *self.all_refused.values()], "OUT", overwrite=overwrite)
         if self.figure is not None:
             check_figure(self.figure)
             check_free([self.figure], "--figure", overwrite=overwrite)
@@ -73,8 +88,8 @@ class Places(NamedTuple):
             LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
-        with staged(self.out.parent, stale=[self.refused]) as stage:
-            notes = write_layer(stage / self.out.name, lines)
+        with staged(self.out.parent, stale=[*self.all_refused.values()]) as stage:
+            notes, where = write_layer(stage / self.out.name, lines), []
             if results.n_refused:
                 refused = lines._replace(
                     layer=f"{layer}_refused",
@@ -82,14 +97,18 @@ class Places(NamedTuple):
                     geometries=np.concatenate(results.refused_areas),
                     kind=source.kind,
                 )
-                notes += write_layer(stage / self.refused.name, refused)
+                apart, lost = one_kind_each(refused, format_of(self.out))
+                notes += lost
+                for kind, some in apart.items():
+                    path = self.all_refused.get(kind, self.out)
+                    notes += write_layer(stage / path.name, some)
+                    where.append(f"layer {some.layer} of {path}" if path == self.out else str(path))
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
         report.say(summary(results, report.elapsed))
         report.say(f"written to {self.out}")
         if results.n_refused:
-            where = f"layer {layer}_refused of {self.out}" if self.refused == self.out else ""
-            report.say(f"refused areas, with reasons, in {where or self.refused}")
+            report.say(f"refused areas, with reasons, in {' and '.join(where)}")
 
 
 def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:

@@ -27,6 +27,8 @@ class Format:
         Whether it says what coordinates mean.
     has_m : bool
         Whether its geometries can have M values.
+    has_one_kind : bool
+        Whether a layer's geometries are all points, all lines or all areas, with or without Z.
     options : tuple of pairs
         Layer options of the driver.
     """
@@ -36,6 +38,7 @@ class Format:
     is_drawing: bool = False
     has_crs: bool = True
     has_m: bool = False
+    has_one_kind: bool = False
     options: tuple[tuple[str, str], ...] = ()
 
 
@@ -48,8 +51,8 @@ FORMATS = {
     "geojson": Format("GeoJSON"),
     "json": Format("GeoJSON"),
     "geojsonl": Format("GeoJSONSeq"),
-    "shp": Format("ESRI Shapefile", has_m=True),
-    "gdb": Format("OpenFileGDB", has_layers=True, has_m=True),
+    "shp": Format("ESRI Shapefile", has_m=True, has_one_kind=True),
+    "gdb": Format("OpenFileGDB", has_layers=True, has_m=True, has_one_kind=True),
     "sqlite": Format("SQLite", has_layers=True, has_m=True, options=(("FORMAT", "SPATIALITE"),)),
     "gml": Format("GML"),
     "kml": Format("KML"),

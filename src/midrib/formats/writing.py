@@ -7,17 +7,18 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
+import numpy as np
 import pyarrow as pa
 import pyogrio
 import pyogrio.errors
 import shapely
 
 from midrib.errors import ParameterError
-from midrib.formats.endings import PARQUET, SHAPEFILE_SIDES, format_of
+from midrib.formats.endings import PARQUET, SHAPEFILE_SIDES, Format, format_of
 from midrib.formats.geoparquet import write_parquet
 from midrib.formats.reading import Geometries
 
-__all__ = ["Features", "check_free", "staged", "write_layer"]
+__all__ = ["KINDS", "Features", "check_free", "one_kind_each", "staged", "write_layer"]
 
 # What pyogrio calls a kind of geometry, by whether it has Z and M.
 NAMES = {
@@ -25,6 +26,17 @@ NAMES = {
     (True, False): "{} Z",
     (False, True): "Measured {}",
     (True, True): "Measured 3D {}",
+}
+BUILDERS = {  # of the multiple kinds
+    "Point": shapely.multipoints,
+    "LineString": shapely.multilinestrings,
+    "Polygon": shapely.multipolygons,
+}
+# Kinds of geometry that go into a layer together, by what is added to its name.
+KINDS = {
+    "": ("Polygon", "MultiPolygon"),
+    "_lines": ("LineString", "LinearRing", "MultiLineString"),
+    "_points": ("Point", "MultiPoint"),
 }
 
 
@@ -101,7 +113,8 @@ def write_layer(path: Path, features: Features) -> list[str]:
     if target.is_drawing:
         there = features.geometries[~shapely.is_missing(features.geometries)]
         features = features._replace(attributes=pa.table({}), geometries=there)
-    geometries, kind = uniform(features.geometries, features.kind)
+    geometries, notes = with_even_heights(features.geometries, target)
+    geometries, kind = uniform(geometries, features.kind)
     wkb = pa.array(shapely.to_wkb(geometries, flavor="iso"), type=pa.binary())
     attributes = features.attributes
     columns = dict(zip(attributes.column_names, attributes.columns, strict=True))
@@ -111,7 +124,7 @@ def write_layer(path: Path, features: Features) -> list[str]:
         return []
     lost = ["attributes"] * target.is_drawing
     lost += ["a CRS"] * (features.crs is not None and not target.has_crs)
-    notes = [f"{target.driver} has no place for {what}" for what in lost]
+    notes += [f"{target.driver} has no place for {what}" for what in lost]
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
@@ -152,8 +165,47 @@ def uniform(geometries: Geometries, default: str) -> tuple[Geometries, str]:
     if len(kinds) == 1:
         return geometries, name.format(kinds.pop())
     multi = geometries.copy()
-    build = shapely.multilinestrings if "LineString" in kinds else shapely.multipolygons
+    build = BUILDERS[min(kinds, key=len)]
     for i, geometry in enumerate(geometries):
         if geometry is not None and not geometry.geom_type.startswith("Multi"):
             multi[i] = build([geometry])
     return multi, name.format(max(kinds, key=len))
+
+
+def with_even_heights(geometries: Geometries, target: Format) -> tuple[Geometries, list[str]]:
+    """Geometries all with Z or all without, if the format asks for that, and a note about it."""
+    there = ~shapely.is_missing(geometries)
+    has_z = shapely.has_z(geometries)
+    if not target.has_one_kind or not 0 < has_z.sum() < there.sum():
+        return geometries, []
+    even = geometries.copy()
+    even[there & ~has_z] = shapely.force_3d(geometries[there & ~has_z], 0.0)
+    return even, [f"{target.driver} has a Z for all or for none, it is 0 where there was none"]
+
+
+def one_kind_each(features: Features, target: Format) -> tuple[dict[str, Features], list[str]]:
+    """Features by what is added to their layer's name, one kind each if the format asks for that.
+
+    Collections have no place in such a format. They go with the areas, as features without a
+    geometry, and a note says so; so do features that had none.
+    """
+    if not target.has_one_kind:
+        return {"": features}, []
+    geometries = features.geometries.copy()
+    kinds = np.array([getattr(geometry, "geom_type", "") for geometry in geometries])
+    known = [kind for some in KINDS.values() for kind in some]
+    homeless = np.isin(kinds, [*known, ""], invert=True)
+    notes = [f"{target.driver} has no place for a {kind}" for kind in np.unique(kinds[homeless])]
+    geometries[homeless] = None
+    kinds[homeless] = ""
+    apart = {}
+    for name, some in KINDS.items():
+        rows = np.flatnonzero(np.isin(kinds, some if name else [*some, ""]))
+        if rows.size:
+            apart[name] = features._replace(
+                layer=features.layer + name,
+                attributes=features.attributes.take(rows),
+                geometries=geometries[rows],
+                kind=some[0],
+            )
+    return apart, notes
