@@ -20,6 +20,7 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiLineString, Polygon
 
+from midrib import interrupts
 from midrib.curves.collapse import Log, collapse, valid_parts
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
@@ -219,6 +220,7 @@ def profiles_of(
         if problem.status == "refused":
             log.refuse(part.area, part.number, InvalidAreaError(problem.reason))
     for part, guide, line in zip(parts, guides, lines, strict=True):
+        interrupts.check()
         if line is None:
             continue
         scale = degree_lengths(np.array(part.polygon.bounds)) if geographic else PLANE

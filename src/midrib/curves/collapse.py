@@ -10,6 +10,7 @@ import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from midrib import interrupts
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.methods import Finder, finder_of
 from midrib.errors import (
@@ -124,9 +125,10 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    lines = collapse_all(
-        array.ravel(), find, guides(along, array.size), bool(geographic), log, care
-    )
+    with interrupts.deferred():
+        lines = collapse_all(
+            array.ravel(), find, guides(along, array.size), bool(geographic), log, care
+        )
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -271,6 +273,7 @@ def lines_of(
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
     for i, part in enumerate(parts):
+        interrupts.check()
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])

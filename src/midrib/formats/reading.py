@@ -15,6 +15,7 @@ import pyogrio
 import pyogrio.errors
 import shapely
 
+from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.geoparquet import geo_column
 
@@ -75,6 +76,7 @@ class Source:
         yield Batch(0, self.attributes.empty_table(), np.empty(0, dtype=object), {})
         first = 0
         for batch in self.stream:
+            interrupts.check()
             attributes = pa.Table.from_batches([batch]).select(self.attributes.names)
             yield Batch(first, attributes, *decoded(batch.column(self.geometry)))
             first += batch.num_rows

@@ -13,6 +13,7 @@ import pyogrio
 import pyogrio.errors
 import shapely
 
+from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.endings import PARQUET, SHAPEFILE_SIDES, Format, format_of
 from midrib.formats.geoparquet import write_parquet
@@ -75,15 +76,16 @@ def staged(folder: Path, stale: Sequence[Path] = ()) -> Iterator[Path]:
     The files ``stale`` go away then, unless they are replaced. After an error or an interrupt
     nothing has moved and the temporary folder is gone.
     """
-    with TemporaryDirectory(dir=folder, prefix=".midrib-") as name:
+    with TemporaryDirectory(dir=folder, prefix=".midrib-") as name, interrupts.rubbish(name):
         stage = Path(name) / "new"
         stage.mkdir()
         yield stage
         new = sorted(stage.iterdir())
-        for path in {*stale, *(folder / path.name for path in new)}:
-            put_aside(path, Path(name), everything=path in stale)
-        for path in new:
-            path.replace(folder / path.name)
+        with interrupts.shielded():
+            for path in {*stale, *(folder / path.name for path in new)}:
+                put_aside(path, Path(name), everything=path in stale)
+            for path in new:
+                path.replace(folder / path.name)
 
 
 def put_aside(path: Path, place: Path, *, everything: bool) -> None:
