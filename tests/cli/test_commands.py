@@ -40,6 +40,7 @@ INPUTS: dict[str, tuple[list[str | None], int, int]] = {
     "mixed": ([STRIP, "POINT (1 1)", "LINESTRING (0 0, 1 1)"], 1, 2),
     "random": (random_areas(), 40, 0),
 }
+TWICE: list[list[str | None]] = [[BOW_TIE], []]  # a run that refuses one, and one that does not
 COMMANDS = {
     "collapse": ["collapse", "IN", "OUT", "--quiet"],
     "methods": ["methods"],
@@ -138,13 +139,37 @@ def test_refused_features_of_several_kinds_leave_the_lines(
 
 
 def test_nothing_refused_leaves_no_file_of_refusals(midrib: Runner, tmp_path: Path) -> None:
-    source = write(tmp_path / "in.gpkg", [STRIP])
-    stale = write(tmp_path / "out_refused.parquet", [STRIP])
-    out = tmp_path / "out.parquet"
-    assert midrib("collapse", source, out).code == 2
-    assert midrib("collapse", source, out, "--overwrite").code == 0
+    bad, good = (write(tmp_path / f"{i}.gpkg", [STRIP, *wkts]) for i, wkts in enumerate(TWICE))
+    out, stale = tmp_path / "out.parquet", tmp_path / "out_refused.parquet"
+    assert midrib("collapse", bad, out).code == 1
+    assert stale.exists()
+    assert midrib("collapse", good, out).code == 2
+    assert midrib("collapse", good, out, "--overwrite").code == 0
     assert out.exists()
     assert not stale.exists()
+
+
+@pytest.mark.parametrize("command", ["collapse", "profile"])
+def test_a_file_of_others_in_the_place_for_refusals_is_kept(
+    command: str, midrib: Runner, tmp_path: Path
+) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    other = write(tmp_path / "out_refused.parquet", [STRIP])
+    before = other.read_bytes()
+    outcome = midrib(command, source, tmp_path / "out.parquet", "--overwrite")
+    assert outcome.code == 2
+    assert "has no column 'reason' and so is no output of an earlier run" in outcome.err
+    assert other.read_bytes() == before
+
+
+def test_a_drawing_in_the_place_for_refusals_is_kept(midrib: Runner, tmp_path: Path) -> None:
+    bad, good = (write(tmp_path / f"{i}.gpkg", [STRIP, *wkts]) for i, wkts in enumerate(TWICE))
+    out = tmp_path / "out.dxf"
+    assert midrib("collapse", bad, out).code == 1
+    outcome = midrib("collapse", good, out, "--overwrite")
+    assert outcome.code == 0
+    assert "out_refused.dxf was there before, it is left as it was" in outcome.err
+    assert (tmp_path / "out_refused.dxf").exists()
 
 
 def test_columns_measure_the_line(midrib: Runner, tmp_path: Path) -> None:

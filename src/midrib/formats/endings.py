@@ -5,7 +5,7 @@ from pathlib import Path
 
 from midrib.errors import ParameterError
 
-__all__ = ["PARQUET", "SHAPEFILE_SIDES", "Format", "endings_with_m", "format_of"]
+__all__ = ["FOLDERS", "PARQUET", "SHAPEFILE_SIDES", "Format", "endings_with_m", "format_of"]
 
 PARQUET = "Parquet"
 SHAPEFILE_SIDES = ("shx", "dbf", "prj", "cpg", "qix", "sbn", "sbx", "qpj")
@@ -27,6 +27,8 @@ class Format:
         Whether it says what coordinates mean.
     has_m : bool
         Whether its geometries can have M values.
+    is_folder : bool
+        Whether it is a folder with files of its own kind.
     has_one_kind : bool
         Whether a layer's geometries are all points, all lines or all areas, with or without Z.
     options : tuple of pairs
@@ -38,6 +40,7 @@ class Format:
     is_drawing: bool = False
     has_crs: bool = True
     has_m: bool = False
+    is_folder: bool = False
     has_one_kind: bool = False
     options: tuple[tuple[str, str], ...] = ()
 
@@ -52,7 +55,7 @@ FORMATS = {
     "json": Format("GeoJSON"),
     "geojsonl": Format("GeoJSONSeq"),
     "shp": Format("ESRI Shapefile", has_m=True, has_one_kind=True),
-    "gdb": Format("OpenFileGDB", has_layers=True, has_m=True, has_one_kind=True),
+    "gdb": Format("OpenFileGDB", has_layers=True, has_m=True, is_folder=True, has_one_kind=True),
     "sqlite": Format("SQLite", has_layers=True, has_m=True, options=(("FORMAT", "SPATIALITE"),)),
     "gml": Format("GML"),
     "kml": Format("KML"),
@@ -62,6 +65,7 @@ FORMATS = {
     "jml": Format("JML"),
     "dxf": Format("DXF", is_drawing=True, has_crs=False),
 }
+FOLDERS = tuple(f".{ending}" for ending, known in FORMATS.items() if known.is_folder)
 
 
 def format_of(path: Path) -> Format:

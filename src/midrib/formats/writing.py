@@ -15,7 +15,7 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
-from midrib.formats.endings import PARQUET, SHAPEFILE_SIDES, Format, format_of
+from midrib.formats.endings import FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
 from midrib.formats.geoparquet import write_parquet
 from midrib.formats.reading import Geometries
 
@@ -28,6 +28,7 @@ NAMES = {
     (False, True): "Measured {}",
     (True, True): "Measured 3D {}",
 }
+CATALOGUE = "a00000001.gdbtable"  # the first table of every geodatabase
 BUILDERS = {  # of the multiple kinds
     "Point": shapely.multipoints,
     "LineString": shapely.multilinestrings,
@@ -58,15 +59,30 @@ def check_free(paths: Sequence[Path], name: str, *, overwrite: bool) -> None:
     Raises
     ------
     ParameterError
-        If a file is there already and is not to be overwritten, or its folder is not there.
+        If a file is there already and is not to be overwritten, a folder is in its place, or the
+        folder it would be in is not there.
     """
     for path in paths:
+        is_folder = path.suffix.lower() in FOLDERS
+        if path.exists() and path.is_dir() != is_folder:
+            found, wanted = ("a file", "a folder") if is_folder else ("a folder", "a file")
+            msg = f"{name} {str(path)!r} is {found}, expected {wanted} or nothing there"
+            raise ParameterError(msg)
+        if is_folder and path.exists() and not is_geodatabase(path):
+            msg = f"{name} {str(path)!r} is a folder, but no geodatabase that could be replaced"
+            raise ParameterError(msg)
         if not path.parent.is_dir():
             msg = f"{name} {str(path)!r} lies in a folder that does not exist"
             raise ParameterError(msg)
         if path.exists() and not overwrite:
             msg = f"{name} {str(path)!r} exists, give --overwrite to replace it"
             raise ParameterError(msg)
+
+
+def is_geodatabase(path: Path) -> bool:
+    """Whether a folder is a geodatabase, or has nothing in it."""
+    files = list(path.iterdir())
+    return not files or (path / CATALOGUE in files and all(file.is_file() for file in files))
 
 
 @contextmanager
@@ -89,10 +105,11 @@ def staged(folder: Path, stale: Sequence[Path] = ()) -> Iterator[Path]:
 
 
 def put_aside(path: Path, place: Path, *, everything: bool) -> None:
-    """Move away what a rename would not replace: folders, and side files of a shapefile."""
+    """Move away what a rename would not replace: geodatabases, and side files of a shapefile."""
     endings = SHAPEFILE_SIDES if path.suffix.lower() == ".shp" else ()
     old = [side for ending in endings if (side := path.with_suffix(f".{ending}")).exists()]
-    if path.is_dir() or (everything and path.exists()):
+    is_folder = path.is_dir() and path.suffix.lower() in FOLDERS
+    if is_folder or (everything and path.is_file()):
         old.append(path)
     for file in old:
         file.replace(place / file.name)
