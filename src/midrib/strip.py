@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
+from midrib.checks import is_number, shown
 from midrib.ends import End, end_at, end_far_from, lay_out_ends, lay_out_proposed
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.kernels.rings import Rings
@@ -16,7 +17,7 @@ from midrib.ragged import area_of_one, place_text, rings_of_area
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["PLANE", "Position", "Strip", "divide", "split"]
+__all__ = ["PLANE", "Position", "Strip", "divide", "pair_of", "split"]
 
 Position: TypeAlias = "shapely.Point | tuple[float, float]"
 PLANE: Scale = (1.0, 1.0)
@@ -222,17 +223,22 @@ def divide_along(boundary: Boundary, along: LineString, scale: Scale) -> Layout:
 
 def position(value: object, name: str) -> "Floats":
     """Coordinates of a Point or of a pair of numbers."""
-    if isinstance(value, shapely.Point) and not value.is_empty:
-        return np.array([value.x, value.y])
-    pair = (
-        np.asarray(value, dtype=np.float64)
-        if isinstance(value, tuple | list | np.ndarray)
-        else None
-    )
-    if pair is None or pair.shape != (2,) or not np.isfinite(pair).all():
-        msg = f"{name} is {value!r}, expected a Point or a pair of finite numbers"
+    pair = pair_of(value)
+    if pair is None:
+        msg = f"{name} is {shown(value)}, expected a Point or a pair of finite numbers"
         raise ParameterError(msg)
     return pair
+
+
+def pair_of(value: object) -> "Floats | None":
+    """Coordinates of a Point or of a pair of finite numbers, None if it is neither."""
+    if isinstance(value, shapely.Point) and not value.is_empty:
+        value = (value.x, value.y)
+    is_row = isinstance(value, tuple | list | np.ndarray) and len(value) == 2
+    if not is_row or not all(is_number(part) for part in value):  # type: ignore[attr-defined]
+        return None
+    pair = np.array(value, dtype=np.float64)
+    return pair if np.isfinite(pair).all() else None
 
 
 def checked_curve(curve: object, name: str) -> LineString:

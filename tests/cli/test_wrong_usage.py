@@ -46,6 +46,14 @@ WRONG: dict[str, tuple[list[str], str]] = {
         ["in.gpkg", "out.gpkg", "--spacing", "0"],
         "spacing is 0.0, expected a positive",
     ),
+    "too dense": (
+        ["in.gpkg", "out.gpkg", "--spacing", "1e-9"],
+        "an interval of 1e-09 asks for 9e+10 stations, expected fewer",
+    ),
+    "too many": (
+        ["in.gpkg", "out.gpkg", "--count", "1000000000"],
+        "count is 1000000000, expected at most 50,000,000",
+    ),
     "two intervals": (
         ["in.gpkg", "out.gpkg", "--spacing", "2", "--count", "3"],
         "spacing and count exclude each other",

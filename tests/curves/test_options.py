@@ -275,6 +275,26 @@ def test_options_that_do_not_exist_are_refused(options: dict[str, Any], message:
         collapse([rectangle(9, 2)], **options)
 
 
+WRONG_WHATEVER_THE_AREA: list[dict[str, Any]] = [
+    {"skip": "bay"},
+    {"skip": 3.5},
+    {"count": 10**9},
+    {"percent": 1e-9},
+    {"spacing": 1e-9},
+    {"ends": ((0, 1), (np.nan, 1))},
+    {"ends": ((0, 1), "east")},
+]
+
+
+@pytest.mark.parametrize("options", WRONG_WHATEVER_THE_AREA)
+def test_wrong_options_are_not_the_areas_fault(options: dict[str, Any]) -> None:
+    with pytest.raises(ParameterError):
+        collapse([rectangle(9, 2), BOW_TIE], on_error="report", **options)
+    if "spacing" not in options:  # no area is needed to tell
+        with pytest.raises(ParameterError):
+            collapse([], **options)
+
+
 def test_missing_and_empty_stay_what_they_are() -> None:
     assert collapse(None) is None
     assert collapse(Polygon()).equals(LineString())

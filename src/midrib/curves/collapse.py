@@ -11,6 +11,7 @@ from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from midrib import interrupts
+from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.methods import Finder, finder_of
 from midrib.errors import (
@@ -19,6 +20,7 @@ from midrib.errors import (
     MidribError,
     ParameterError,
     RepairedAreaWarning,
+    TooManyStationsError,
 )
 from midrib.geodesy import degree_lengths
 from midrib.ragged import pack_areas
@@ -113,9 +115,11 @@ def collapse(
     >>> collapse([box(0, 0, 6, 2), None])
     array([<LINESTRING (0 1, 2 1, 4 1, 6 1)>, None], dtype=object)
     """
-    if on_error not in ("raise", "report"):
-        msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
+    if not isinstance(on_error, str) or on_error not in ("raise", "report"):
+        msg = f"on_error is {shown(on_error)}, expected 'raise' or 'report'"
         raise ParameterError(msg)
+    if geographic is not None:
+        check_flag(geographic, "geographic")
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -136,7 +140,7 @@ def collapse(
 
 
 class Log:
-    """What went wrong where; a strict one raises at the first refusal."""
+    """What went wrong where; a strict one raises at the first refusal, any at absurd options."""
 
     def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
         self.problems: list[Problem] = []
@@ -148,7 +152,7 @@ class Log:
 
     def refuse(self, index: int, part: int, error: MidribError) -> None:
         """Record that an area (part) has no line, and why."""
-        if self.strict:
+        if self.strict or isinstance(error, TooManyStationsError):
             raise type(error)(self.sentence(index, part, str(error))) from error
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
