@@ -236,6 +236,12 @@ def test_the_only_part_of_a_multipolygon_is_an_area() -> None:
         ({"start": "here"}, ParameterError, "start is 'here', expected a Point or a pair"),
         ({"start": (0, 0, 0)}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"start": (0, 0), "end": (np.nan, 0)}, ParameterError, "end is .*, expected a Point"),
+        (
+            {"start": ("a", "b")},
+            ParameterError,
+            "start is \\('a', 'b'\\), expected a Point or a pair",
+        ),
+        ({"start": (True, 0)}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"end": (np.inf, 0)}, ParameterError, "end is .*, expected a Point or a pair"),
         ({"start": Point()}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"start": (0, 0), "end": (0, 0)}, InvalidAreaError, "are the same point"),

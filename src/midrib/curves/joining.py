@@ -98,16 +98,14 @@ def check_ends(ends: Any, clearance: Any) -> tuple[EndRule, EndClearance]:
         msg = f"ends is {shown(ends)}, expected 'main', 'caps', 'radii', a pair of points or None"
         raise ParameterError(msg)
     rule: Any = (coordinates_of(ends[0]), coordinates_of(ends[1])) if is_pair else ends
-    known: Any = clearance
-    if known is None or (isinstance(known, str) and known in CLEARANCES):
-        return rule, known
-    if not is_number(clearance) or not 0.0 <= clearance < np.inf:
+    is_rule = clearance is None or (isinstance(clearance, str) and clearance in CLEARANCES)
+    if not is_rule and not (is_number(clearance) and 0.0 <= clearance < np.inf):
         msg = (
             f"end_clearance is {shown(clearance)}, expected 'station', 'proportional', a length or "
             "None"
         )
         raise ParameterError(msg)
-    return rule, float(clearance)
+    return rule, clearance if is_rule else float(clearance)
 
 
 def end_points(layout: Layout, ends: EndRule) -> EndPoints:
