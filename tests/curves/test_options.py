@@ -404,6 +404,51 @@ def test_a_refused_part_is_named_and_left_out() -> None:
         collapse(parts)
 
 
+def right_of(x: float) -> Polygon:
+    """A strip 9 long and 2 wide that begins at x."""
+    return shapely.affinity.translate(rectangle(9.0, 2.0), x)
+
+
+@pytest.mark.parametrize("again", [right_of(0.0), right_of(0.0).reverse(), right_of(1e-6)])
+def test_a_part_that_is_there_twice_has_one_line(again: Polygon) -> None:
+    parts = MultiPolygon([rectangle(9.0, 2.0), again, right_of(20.0)])
+    line, problems = collapse(parts, on_error="report")
+    assert len(line.geoms) == 2
+    assert line.geoms[0].equals(collapse(rectangle(9.0, 2.0)))
+    assert [(p.part, p.status, p.reason) for p in problems] == [
+        (1, "repaired", "the same as part 0, left out")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("other", "place"),
+    [(right_of(5.0), "\\(7, 1\\)"), (box(1, 0.5, 8, 1.5), "\\(4.5, 1\\)")],
+)
+def test_parts_that_overlap_are_refused(other: Polygon, place: str) -> None:
+    parts = MultiPolygon([BOW_TIE, right_of(0.0), other, right_of(20.0)])
+    line, problems = collapse(parts, on_error="report")
+    assert len(line.geoms) == 1
+    assert {p.part: p.status for p in problems} == dict.fromkeys([0, 1, 2], "refused")
+    assert "overlaps part 2 at" in problems[1].reason
+    with pytest.raises(InvalidAreaError, match=f"areas\\[0\\]: overlaps part 1 at {place}, which"):
+        collapse(MultiPolygon([right_of(0.0), other]))
+
+
+def test_parts_that_overlap_by_next_to_nothing_stay() -> None:
+    parts = MultiPolygon([right_of(0.0), right_of(8.999)])
+    line, (problem,) = collapse(parts, on_error="report")
+    assert len(line.geoms) == 2
+    assert problem.status == "repaired"
+    assert problem.reason == "overlaps part 0 at (8.9995, 1) by 0.00011 of the smaller one"
+
+
+def test_parts_side_by_side_are_no_problem() -> None:
+    slanted = shapely.affinity.rotate(MultiPolygon([right_of(0.0), right_of(9.0)]), 17.0)
+    line, problems = collapse(slanted, on_error="report")
+    assert len(line.geoms) == 2
+    assert problems == []
+
+
 def test_a_directional_polyline_for_each_area_or_for_all() -> None:
     area, top = rectangle(10.0, 2.0), LineString([(10, 2), (0, 2)])
     lines = collapse([area, area], along=[top, None])

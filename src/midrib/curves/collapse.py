@@ -24,7 +24,7 @@ from midrib.errors import (
 )
 from midrib.geodesy import degree_lengths
 from midrib.ragged import pack_areas
-from midrib.repair import repaired
+from midrib.repair import overlaps, repaired
 from midrib.strip import PLANE
 
 if TYPE_CHECKING:
@@ -252,17 +252,39 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
             continue
         polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-        for number, polygon in enumerate(polygons):
-            if is_valid[i] or (polygon.is_valid and not polygon.is_empty):
-                yield Part(i, number, polygon)
-                continue
-            try:
-                pieces, reason = repaired(polygon)
-            except InvalidAreaError as error:
-                log.refuse(i, number, error)
-                continue
-            log.note(i, number, "repaired", reason)
-            yield from (Part(i, number, piece) for piece in pieces)
+        if is_valid[i]:
+            yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
+        else:
+            yield from apart(list(repaired_parts(i, polygons, log)), log)
+
+
+def repaired_parts(i: int, polygons: Sequence[Polygon], log: Log) -> Iterator[Part]:
+    """Polygons of one area, each valid by itself."""
+    for number, polygon in enumerate(polygons):
+        if polygon.is_valid and not polygon.is_empty:
+            yield Part(i, number, polygon)
+            continue
+        try:
+            pieces, reason = repaired(polygon)
+        except InvalidAreaError as error:
+            log.refuse(i, number, error)
+            continue
+        log.note(i, number, "repaired", reason)
+        yield from (Part(i, number, piece) for piece in pieces)
+
+
+def apart(parts: list[Part], log: Log) -> Iterator[Part]:
+    """Parts of one area that do not overlap others."""
+    found = overlaps([part.polygon for part in parts], [part.number for part in parts])
+    for row, part in enumerate(parts):
+        overlap = found.get(row)
+        if overlap is not None and overlap.is_refused:
+            log.refuse(part.area, part.number, InvalidAreaError(overlap.reason))
+            continue
+        if overlap is not None:
+            log.note(part.area, part.number, "repaired", overlap.reason)
+        if overlap is None or not overlap.is_left_out:
+            yield part
 
 
 def lines_of(
