@@ -190,6 +190,21 @@ def test_columns_that_are_taken_are_numbered_on() -> None:
     assert table.column_names == ["length", "Length_2", "length_3", "status"]
 
 
+@pytest.mark.parametrize("ending", ["gpkg", "csv", "parquet"])
+def test_fields_that_differ_by_case_are_kept(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    areas = shapely.from_wkt([STRIP, BOW_TIE])
+    both = pa.table({"status": ["a", "b"], "Status": ["c", "d"]})
+    source, out = tmp_path / "in.parquet", tmp_path / f"out.{ending}"
+    write_layer(source, Features("both", both, areas, "geom", "Polygon", RD_NEW))
+    outcome = midrib("collapse", source, out)
+    assert outcome.code == 1
+    (row,) = read_all(out)[1].to_pylist()
+    new = "Status" if ending == "parquet" else "Status_3"
+    assert (new == "Status") == ("is written as" not in outcome.err)
+    assert (row["status"], row[new]) == ("a", "c")
+    assert row["status_2"] == "ok"
+
+
 @pytest.mark.parametrize("command", ["collapse", "profile"])
 @pytest.mark.parametrize("ending", ["gpkg", "fgb", "geojson", "parquet"])
 def test_layers_without_attributes_are_layers_too(

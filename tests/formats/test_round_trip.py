@@ -12,7 +12,7 @@ import shapely
 from midrib.errors import ParameterError
 from midrib.formats.endings import FORMATS, format_of
 from midrib.formats.reading import layer_names
-from midrib.formats.writing import write_layer
+from midrib.formats.writing import Features, write_layer
 from tests.formats.layers import RD_NEW, crs_name, features_of, read_all, write
 
 LINES: list[str | None] = [f"LINESTRING (140000 46{i}000, 140100 46{i}100)" for i in range(5)]
@@ -38,6 +38,43 @@ def test_geometries_come_back_in_order(ending: str, tmp_path: Path) -> None:
         assert attributes["name"].to_pylist()[2:] == ["é 2", "é 3", "é 4"]
     if ending not in {*ADDS_COLUMNS, "sqlite"}:
         assert attributes.column_names == ["number", "name", "share"]
+
+
+def named(**columns: list[object]) -> Features:
+    """Two lines with attributes of the given names."""
+    return features_of(LINES[:2])._replace(attributes=pa.table(columns))
+
+
+@pytest.mark.parametrize("ending", [e for e in FORMATS if e != "dxf"])
+def test_names_that_differ_by_case_are_told_apart(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"lines.{ending}"
+    features = named(
+        status=["a", "b"], STATUS=["c", "d"], Status_2=["e", "f"], Geom=["g", "h"], fid=["i", None]
+    )
+    notes = write_layer(path, features)
+    columns = {name.lower(): values for name, values in read_all(path)[1].to_pydict().items()}
+    if "parquet" in ending:
+        assert notes == []
+        return
+    assert "the field 'STATUS' is written as 'STATUS_3'" in notes
+    assert "the field 'Geom' is written as 'Geom_2'" in notes
+    numbered: dict[str, list[str | None]] = {
+        "status": ["a", "b"],
+        "status_3": ["c", "d"],
+        "status_2": ["e", "f"],
+    }
+    numbered |= {"geom_2": ["g", "h"], "fid_2" if ending == "gpkg" else "fid": ["i", None]}
+    for name, values in numbered.items():
+        assert [value or None for value in columns[name]] == values
+
+
+def test_numbers_of_features_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "lines.gpkg"
+    assert write_layer(path, named(fid=[7, 9], name=["a", "b"])) == []
+    assert read_all(path)[1].to_pydict() == {"name": ["a", "b"]}
+    assert write_layer(tmp_path / "twice.gpkg", named(fid=[7, 7])) == [
+        "the field 'fid' is written as 'fid_2'"
+    ]
 
 
 @pytest.mark.parametrize("ending", [e for e in FORMATS if e != "dxf"])

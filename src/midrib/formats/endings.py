@@ -31,6 +31,8 @@ class Format:
         Whether it is a folder with files of its own kind.
     has_one_kind : bool
         Whether a layer's geometries are all points, all lines or all areas, with or without Z.
+    identifier : str
+        Name of its column for numbers of features, if it has one among the others.
     options : tuple of pairs
         Layer options of the driver.
     """
@@ -42,11 +44,12 @@ class Format:
     has_m: bool = False
     is_folder: bool = False
     has_one_kind: bool = False
+    identifier: str = ""
     options: tuple[tuple[str, str], ...] = ()
 
 
 FORMATS = {
-    "gpkg": Format("GPKG", has_layers=True, has_m=True),
+    "gpkg": Format("GPKG", has_layers=True, has_m=True, identifier="fid"),
     "parquet": Format(PARQUET),
     "geoparquet": Format(PARQUET),
     # FlatGeobuf's spatial index sorts the features and has no place for missing geometries.
@@ -56,7 +59,13 @@ FORMATS = {
     "geojsonl": Format("GeoJSONSeq"),
     "shp": Format("ESRI Shapefile", has_m=True, has_one_kind=True),
     "gdb": Format("OpenFileGDB", has_layers=True, has_m=True, is_folder=True, has_one_kind=True),
-    "sqlite": Format("SQLite", has_layers=True, has_m=True, options=(("FORMAT", "SPATIALITE"),)),
+    "sqlite": Format(
+        "SQLite",
+        has_layers=True,
+        has_m=True,
+        identifier="ogc_fid",
+        options=(("FORMAT", "SPATIALITE"),),
+    ),
     "gml": Format("GML"),
     "kml": Format("KML"),
     "csv": Format("CSV", has_crs=False, has_m=True, options=(("GEOMETRY", "AS_WKT"),)),

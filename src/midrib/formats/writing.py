@@ -1,7 +1,7 @@
 """Features to files: whole or not at all."""
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,7 +19,15 @@ from midrib.formats.endings import FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, fo
 from midrib.formats.geoparquet import write_parquet
 from midrib.formats.reading import Geometries
 
-__all__ = ["KINDS", "Features", "check_free", "one_kind_each", "staged", "write_layer"]
+__all__ = [
+    "KINDS",
+    "Features",
+    "check_free",
+    "free_name",
+    "one_kind_each",
+    "staged",
+    "write_layer",
+]
 
 # What pyogrio calls a kind of geometry, by whether it has Z and M.
 NAMES = {
@@ -135,12 +143,13 @@ def write_layer(path: Path, features: Features) -> list[str]:
     geometries, notes = with_even_heights(features.geometries, target)
     geometries, kind = uniform(geometries, features.kind)
     wkb = pa.array(shapely.to_wkb(geometries, flavor="iso"), type=pa.binary())
-    attributes = features.attributes
-    columns = dict(zip(attributes.column_names, attributes.columns, strict=True))
+    names, renamed = distinct_names(features, target)
+    notes += renamed
+    columns = dict(zip(names, features.attributes.columns, strict=True))
     table = pa.table({**columns, features.geometry: wkb})
     if target.driver == PARQUET:
         write_parquet(path, table, features.geometry, features.crs)
-        return []
+        return notes
     lost = ["attributes"] * target.is_drawing
     lost += ["a CRS"] * (features.crs is not None and not target.has_crs)
     notes += [f"{target.driver} has no place for {what}" for what in lost]
@@ -169,6 +178,46 @@ def write_layer(path: Path, features: Features) -> list[str]:
             raise ParameterError(msg) from error
     said = dict.fromkeys(str(w.message) for w in caught)
     return notes + [text for text in said if not text.startswith("'crs' was not provided")]
+
+
+def distinct_names(features: Features, target: Format) -> tuple[list[str], list[str]]:
+    """Names of the attributes that the format tells apart, and notes about new ones.
+
+    Formats other than Parquet take names that differ only by case for one, or refuse the second;
+    some write its values into the first.
+    """
+    fold: Callable[[str], str] = str if target.driver == PARQUET else str.lower
+    taken = {fold(features.geometry)}
+    table = features.attributes
+    for name, column in zip(table.column_names, table.columns, strict=True):
+        if fold(name) == target.identifier and not is_numbering(column):
+            taken.add(fold(name))
+    names: list[str] = []
+    for name in table.column_names:
+        new = name
+        if fold(name) in taken:
+            new = free_name(name, taken | {fold(known) for known in table.column_names}, fold)
+        taken.add(fold(new))
+        names.append(new)
+    pairs = zip(table.column_names, names, strict=True)
+    return names, [f"the field {old!r} is written as {new!r}" for old, new in pairs if old != new]
+
+
+def is_numbering(column: pa.ChunkedArray) -> bool:
+    """Whether a column can number features: whole numbers, each once."""
+    return (
+        pa.types.is_integer(column.type)
+        and column.null_count == 0
+        and len(column.unique()) == len(column)
+    )
+
+
+def free_name(name: str, taken: Collection[str], fold: Callable[[str], str] = str.lower) -> str:
+    """Return a name, numbered on where it is taken: ``length_2``."""
+    free, number = name, 2
+    while fold(free) in taken:
+        free, number = f"{name}_{number}", number + 1
+    return free
 
 
 def uniform(geometries: Geometries, default: str) -> tuple[Geometries, str]:
