@@ -13,9 +13,10 @@ from midrib.errors import ParameterError
 from midrib.formats.endings import FORMATS, format_of
 from midrib.formats.reading import layer_names
 from midrib.formats.writing import Features, write_layer
-from tests.formats.layers import RD_NEW, crs_name, features_of, read_all, write
+from tests.formats.layers import RD_NEW, crs_name, features_of, projjson, read_all, write
 
 LINES: list[str | None] = [f"LINESTRING (140000 46{i}000, 140100 46{i}100)" for i in range(5)]
+WGS84 = projjson("EPSG:4326")
 # What formats are known to change: they count in other units, name the CRS their own way, or none.
 REPROJECTS = {"kml", "geojsonl"}
 ROUNDS = {"tab", "gdb"}
@@ -38,6 +39,36 @@ def test_geometries_come_back_in_order(ending: str, tmp_path: Path) -> None:
         assert attributes["name"].to_pylist()[2:] == ["é 2", "é 3", "é 4"]
     if ending not in {*ADDS_COLUMNS, "sqlite"}:
         assert attributes.column_names == ["number", "name", "share"]
+
+
+def digits(low: tuple[float, float], size: float) -> list[str | None]:
+    """Lines whose coordinates need every digit."""
+    random = np.random.default_rng(3)
+    return [
+        shapely.to_wkt(
+            shapely.LineString(low + size * random.random((9, 2))), rounding_precision=18
+        )
+        for _ in range(20)
+    ]
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+@pytest.mark.parametrize(
+    ("low", "size", "crs"), [((140e3, 460e3), 100.0, RD_NEW), ((5.0, -0.01), 0.01, WGS84)]
+)
+def test_coordinates_come_back_bit_by_bit_or_a_note_says_so(
+    ending: str, low: tuple[float, float], size: float, crs: str, tmp_path: Path
+) -> None:
+    path, features = tmp_path / f"lines.{ending}", features_of(digits(low, size), crs)
+    said = " ".join(write_layer(path, features))
+    found, given = (
+        shapely.get_coordinates(lines) for lines in (read_all(path)[2], features.geometries)
+    )
+    if ending in REPROJECTS and crs == RD_NEW:
+        assert "turns coordinates into longitude and latitude" in said
+    else:
+        assert ("rounds coordinates" not in said) == np.array_equal(found, given)
+        assert "turns" not in said
 
 
 def named(**columns: list[object]) -> Features:
@@ -93,7 +124,11 @@ def test_no_features_are_a_layer_too(ending: str, tmp_path: Path) -> None:
 
 def test_drawings_say_what_they_lose(tmp_path: Path) -> None:
     notes = write_layer(tmp_path / "lines.dxf", features_of([LINES[0], None]))
-    assert notes == ["DXF has no place for attributes", "DXF has no place for a CRS"]
+    assert notes == [
+        "DXF rounds coordinates, so that lines may leave their areas",
+        "DXF has no place for attributes",
+        "DXF has no place for a CRS",
+    ]
     assert len(read_all(tmp_path / "lines.dxf")[2]) == 1
 
 

@@ -15,9 +15,10 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
-from midrib.formats.endings import FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
+from midrib.formats.endings import DECIMALS, FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
 from midrib.formats.geoparquet import write_parquet
 from midrib.formats.reading import Geometries
+from midrib.formats.units import is_wgs84
 
 __all__ = [
     "KINDS",
@@ -29,6 +30,8 @@ __all__ = [
     "write_layer",
 ]
 
+# WKT, in which CSV holds geometries; GDAL looks at it once, before it writes the first.
+pyogrio.set_gdal_config_options({"OGR_WKT_PRECISION": DECIMALS})
 # What pyogrio calls a kind of geometry, by whether it has Z and M.
 NAMES = {
     (False, False): "{}",
@@ -150,6 +153,7 @@ def write_layer(path: Path, features: Features) -> list[str]:
     if target.driver == PARQUET:
         write_parquet(path, table, features.geometry, features.crs)
         return notes
+    notes += changes(features, target)
     lost = ["attributes"] * target.is_drawing
     lost += ["a CRS"] * (features.crs is not None and not target.has_crs)
     notes += [f"{target.driver} has no place for {what}" for what in lost]
@@ -178,6 +182,18 @@ def write_layer(path: Path, features: Features) -> list[str]:
             raise ParameterError(msg) from error
     said = dict.fromkeys(str(w.message) for w in caught)
     return notes + [text for text in said if not text.startswith("'crs' was not provided")]
+
+
+def changes(features: Features, target: Format) -> list[str]:
+    """Say what a format does to coordinates."""
+    if shapely.is_missing(features.geometries).all():
+        return []
+    notes = []
+    if target.is_global and features.crs is not None and not is_wgs84(features.crs):
+        notes.append(f"{target.driver} turns coordinates into longitude and latitude")
+    if target.rounds:
+        notes.append(f"{target.driver} rounds coordinates, so that lines may leave their areas")
+    return notes
 
 
 def distinct_names(features: Features, target: Format) -> tuple[list[str], list[str]]:
