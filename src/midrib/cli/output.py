@@ -9,8 +9,16 @@ import pyarrow as pa
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
+from midrib.formats.reading import column_names
 from midrib.formats.units import Unit, is_geographic, unit_of
-from midrib.formats.writing import Features, check_free, staged, write_layer
+from midrib.formats.writing import (
+    KINDS,
+    Features,
+    check_free,
+    one_kind_each,
+    staged,
+    write_layer,
+)
 
 if TYPE_CHECKING:
     from midrib.cli.guides import Guides
@@ -21,6 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["Places", "draw"]
 
 LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
+REASON = "reason"  # the column that every layer of refused areas has
 KILO = 1000.0
 MANY = 10_000.0  # from so many metres on, lengths are in kilometres
 
@@ -39,6 +48,14 @@ class Places(NamedTuple):
             return self.out
         return self.out.with_name(f"{self.out.stem}_refused{self.out.suffix}")
 
+    @property
+    def all_refused(self) -> dict[str, Path]:
+        """Files for refused features by what is added to the name for their kind of geometry."""
+        path = self.refused
+        if path == self.out or not format_of(path).has_one_kind:
+            return {"": path}
+        return {kind: path.with_name(f"{path.stem}{kind}{path.suffix}") for kind in KINDS}
+
     def check(self, *, overwrite: bool, needs_m: bool = False) -> None:
         """Refuse places that cannot be written to, before any work is done.
 
@@ -46,7 +63,8 @@ class Places(NamedTuple):
         ------
         ParameterError
             If OUT has an unknown ending or no place for M values that are needed, is IN, or exists
-            and is not to be overwritten.
+            and is not to be overwritten; or if there is a file in the place for refused areas that
+            an earlier run has not written.
         """
         if not format_of(self.out).has_m and needs_m:
             msg = (
@@ -54,13 +72,27 @@ class Places(NamedTuple):
                 f"{', '.join(endings_with_m())} with --width m"
             )
             raise ParameterError(msg)
-        if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
-            msg = f"OUT {str(self.out)!r} is IN, expected another file"
-            raise ParameterError(msg)
-        check_free([self.out, self.refused], "OUT", overwrite=overwrite)
+        places = {self.out, *self.all_refused.values()}
+        for path in places:
+            if self.source.exists() and path.exists() and self.source.samefile(path):
+                msg = f"OUT {str(path)!r} is IN, expected another file"
+                raise ParameterError(msg)
+        check_free(sorted(places), "OUT", overwrite=overwrite)
+        for path in places - {self.out}:
+            if path.exists() and not self.may_replace(path):
+                msg = (
+                    f"{str(path)!r}, the place for refused areas, has no column {REASON!r} and so "
+                    "is no output of an earlier run, expected it elsewhere"
+                )
+                raise ParameterError(msg)
         if self.figure is not None:
             check_figure(self.figure)
             check_free([self.figure], "--figure", overwrite=overwrite)
+
+    def may_replace(self, path: Path) -> bool:
+        """Whether a file has the refused areas of an earlier run; drawings do not tell."""
+        names = column_names(path)
+        return format_of(path).is_drawing or any(n.lower().startswith(REASON) for n in names)
 
     def write(self, results: "Results", layer: str, report: "Report") -> None:
         """Write everything, whole or not at all; then sum up."""
@@ -73,8 +105,10 @@ class Places(NamedTuple):
             LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
-        with staged(self.out.parent, stale=[self.refused]) as stage:
-            notes = write_layer(stage / self.out.name, lines)
+        # A drawing does not tell whether an earlier run has made it: it stays.
+        stale = [] if format_of(self.out).is_drawing else [*self.all_refused.values()]
+        with staged(self.out.parent, stale=stale) as stage:
+            notes, where = write_layer(stage / self.out.name, lines), []
             if results.n_refused:
                 refused = lines._replace(
                     layer=f"{layer}_refused",
@@ -82,14 +116,20 @@ class Places(NamedTuple):
                     geometries=np.concatenate(results.refused_areas),
                     kind=source.kind,
                 )
-                notes += write_layer(stage / self.refused.name, refused)
+                apart, lost = one_kind_each(refused, format_of(self.out))
+                notes += lost
+                for kind, some in apart.items():
+                    path = self.all_refused.get(kind, self.out)
+                    notes += write_layer(stage / path.name, some)
+                    where.append(f"layer {some.layer} of {path}" if path == self.out else str(path))
+        if format_of(self.out).is_drawing and not where and self.refused.exists():
+            notes.append(f"{self.refused} was there before, it is left as it was")
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
         report.say(summary(results, report.elapsed))
         report.say(f"written to {self.out}")
         if results.n_refused:
-            where = f"layer {layer}_refused of {self.out}" if self.refused == self.out else ""
-            report.say(f"refused areas, with reasons, in {where or self.refused}")
+            report.say(f"refused areas, with reasons, in {' and '.join(where)}")
 
 
 def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:

@@ -16,6 +16,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from midrib.checks import is_number, shown
 from midrib.curves.joining import Path, heights_of
 from midrib.curves.radii import Radii
 from midrib.errors import InvalidAreaError, ParameterError
@@ -38,15 +39,15 @@ def check_mean(mean: object, centring: str) -> None:
         msg = f"mean goes with centring='symmetric', found centring={centring!r}"
         raise ParameterError(msg)
     is_direction = (
-        isinstance(mean, tuple | list)
+        isinstance(mean, tuple | list | np.ndarray)
         and len(mean) == 2
-        and all(isinstance(value, int | float) for value in mean)
+        and all(is_number(value) for value in mean)
         and 0.0 < np.hypot(*mean) < np.inf
     )
-    if not is_direction and mean not in MEANS:
+    if not is_direction and not (isinstance(mean, str) and mean in MEANS):
         msg = (
-            f"mean is {mean!r}, expected 'proportional', 'same-height', 'radii' or a direction "
-            "(dx, dy) for the same height along it"
+            f"mean is {shown(mean)}, expected 'proportional', 'same-height', 'radii' or a "
+            "direction (dx, dy) for the same height along it"
         )
         raise ParameterError(msg)
 
@@ -56,9 +57,9 @@ def average(
 ) -> Path:
     """Mean of two curves of one strip, joined inside the area without loops."""
     (radii, path), (other_radii, other_path) = one, other
-    if mean in (None, "radii"):
+    if mean is None or (isinstance(mean, str) and mean == "radii"):
         at, other_at = cut_off(layout, radii, path), cut_off(layout, other_radii, other_path)
-    elif mean == "proportional":
+    elif isinstance(mean, str) and mean == "proportional":
         at, other_at = share_of_length(layout, path), share_of_length(layout, other_path)
     else:
         along = upwards(layout) if isinstance(mean, str) else np.asarray(mean, dtype=np.float64)

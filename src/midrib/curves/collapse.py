@@ -10,6 +10,8 @@ import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from midrib import interrupts
+from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.methods import Finder, finder_of
 from midrib.errors import (
@@ -18,10 +20,11 @@ from midrib.errors import (
     MidribError,
     ParameterError,
     RepairedAreaWarning,
+    TooManyStationsError,
 )
 from midrib.geodesy import degree_lengths
 from midrib.ragged import pack_areas
-from midrib.repair import repaired
+from midrib.repair import overlaps, repaired
 from midrib.strip import PLANE
 
 if TYPE_CHECKING:
@@ -112,9 +115,11 @@ def collapse(
     >>> collapse([box(0, 0, 6, 2), None])
     array([<LINESTRING (0 1, 2 1, 4 1, 6 1)>, None], dtype=object)
     """
-    if on_error not in ("raise", "report"):
-        msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
+    if not isinstance(on_error, str) or on_error not in ("raise", "report"):
+        msg = f"on_error is {shown(on_error)}, expected 'raise' or 'report'"
         raise ParameterError(msg)
+    if geographic is not None:
+        check_flag(geographic, "geographic")
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -124,9 +129,10 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    lines = collapse_all(
-        array.ravel(), find, guides(along, array.size), bool(geographic), log, care
-    )
+    with interrupts.deferred():
+        lines = collapse_all(
+            array.ravel(), find, guides(along, array.size), bool(geographic), log, care
+        )
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -134,7 +140,7 @@ def collapse(
 
 
 class Log:
-    """What went wrong where; a strict one raises at the first refusal."""
+    """What went wrong where; a strict one raises at the first refusal, any at absurd options."""
 
     def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
         self.problems: list[Problem] = []
@@ -146,7 +152,7 @@ class Log:
 
     def refuse(self, index: int, part: int, error: MidribError) -> None:
         """Record that an area (part) has no line, and why."""
-        if self.strict:
+        if self.strict or isinstance(error, TooManyStationsError):
             raise type(error)(self.sentence(index, part, str(error))) from error
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
@@ -246,17 +252,39 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
             continue
         polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-        for number, polygon in enumerate(polygons):
-            if is_valid[i] or (polygon.is_valid and not polygon.is_empty):
-                yield Part(i, number, polygon)
-                continue
-            try:
-                pieces, reason = repaired(polygon)
-            except InvalidAreaError as error:
-                log.refuse(i, number, error)
-                continue
-            log.note(i, number, "repaired", reason)
-            yield from (Part(i, number, piece) for piece in pieces)
+        if is_valid[i]:
+            yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
+        else:
+            yield from apart(list(repaired_parts(i, polygons, log)), log)
+
+
+def repaired_parts(i: int, polygons: Sequence[Polygon], log: Log) -> Iterator[Part]:
+    """Polygons of one area, each valid by itself."""
+    for number, polygon in enumerate(polygons):
+        if polygon.is_valid and not polygon.is_empty:
+            yield Part(i, number, polygon)
+            continue
+        try:
+            pieces, reason = repaired(polygon)
+        except InvalidAreaError as error:
+            log.refuse(i, number, error)
+            continue
+        log.note(i, number, "repaired", reason)
+        yield from (Part(i, number, piece) for piece in pieces)
+
+
+def apart(parts: list[Part], log: Log) -> Iterator[Part]:
+    """Parts of one area that do not overlap others."""
+    found = overlaps([part.polygon for part in parts], [part.number for part in parts])
+    for row, part in enumerate(parts):
+        overlap = found.get(row)
+        if overlap is not None and overlap.is_refused:
+            log.refuse(part.area, part.number, InvalidAreaError(overlap.reason))
+            continue
+        if overlap is not None:
+            log.note(part.area, part.number, "repaired", overlap.reason)
+        if overlap is None or not overlap.is_left_out:
+            yield part
 
 
 def lines_of(
@@ -271,6 +299,7 @@ def lines_of(
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
     for i, part in enumerate(parts):
+        interrupts.check()
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from midrib.checks import is_number, shown
 from midrib.curves.averaging import Mean, average, check_mean
 from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
 from midrib.curves.radii import EndClearance, Radii, draw_radii
@@ -45,13 +46,12 @@ class Construction:
         centring: Centring = "none",
         mean: Mean | None = None,
     ) -> None:
-        check_ends(ends, end_clearance)
+        self.ends, self.end_clearance = check_ends(ends, end_clearance)
         check_centring(centring, tolerance)
         check_mean(mean, centring)
         if vertices is None:
             vertices = centring != "centred"  # the trunk is probed between radii anyway
         self.rule = StationRule(spacing, count, percent, vertices, stations, skip)
-        self.ends, self.end_clearance = ends, end_clearance
         self.centring, self.tolerance, self.mean = centring, tolerance, mean
 
     def of(self, layout: "Layout") -> "tuple[Radii, Path]":
@@ -92,13 +92,13 @@ class Construction:
 
 def check_centring(centring: Any, tolerance: Any) -> None:
     """Refuse ways of centring that do not exist."""
-    if centring not in CENTRINGS:
-        msg = f"centring is {centring!r}, expected 'none', 'symmetric' or 'centred'"
+    if not isinstance(centring, str) or centring not in CENTRINGS:
+        msg = f"centring is {shown(centring)}, expected 'none', 'symmetric' or 'centred'"
         raise ParameterError(msg)
     if tolerance is None:
         return
-    if not isinstance(tolerance, int | float) or not 0.0 <= tolerance < float("inf"):
-        msg = f"tolerance is {tolerance!r}, expected a length of 0 or more"
+    if not is_number(tolerance) or not 0.0 <= tolerance < float("inf"):
+        msg = f"tolerance is {shown(tolerance)}, expected a length of 0 or more"
         raise ParameterError(msg)
     if centring != "centred":
         msg = f"tolerance goes with centring='centred', found centring={centring!r}"
