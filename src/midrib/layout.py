@@ -148,7 +148,7 @@ def lay_out(
 
 def layout_of(divided: Divided, scale: Scale) -> Layout:
     """Layout of a divided shell."""
-    middle = divided.middle[:, :2]
+    middle = np.ascontiguousarray(divided.middle[:, :2])
     return Layout(
         divided.mesh,
         divided.main,

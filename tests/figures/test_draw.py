@@ -32,12 +32,12 @@ def test_everything_is_in_the_legend() -> None:
         "radii",
         "main curve",
         "auxiliary curve",
-        "curve of minimal radii",
+        "line",
     ]
 
 
 def test_thin_areas_are_drawn_as_their_line_only() -> None:
-    assert names(draw_collapse(box(0, 0, 900, 1))) == ["area", "curve of minimal radii"]
+    assert names(draw_collapse(box(0, 0, 900, 1))) == ["area", "line"]
 
 
 @pytest.mark.parametrize("areas", [[], [None], [Polygon()], STRIP, [HOLES, None]])

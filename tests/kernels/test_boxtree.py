@@ -6,7 +6,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from midrib.kernels.boxtree import FOOT, LIMIT, VERTEX, box_tree, nearest_on_chain
+from midrib.kernels import boxtree as kernels
+from midrib.kernels.boxtree import FOOT, LIMIT, VERTEX
+from tests.kernels.calling import callable_from_python
+
+box_tree = callable_from_python(kernels.box_tree)
+nearest_on_chain = callable_from_python(kernels.nearest_on_chain)
 
 Floats = NDArray[np.float64]
 pairs = st.tuples(st.integers(-20, 20), st.integers(-20, 20))

@@ -4,7 +4,11 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from midrib.kernels.heap import pop, push
+from midrib.kernels import heap as kernels
+from tests.kernels.calling import callable_from_python
+
+pop = callable_from_python(kernels.pop)
+push = callable_from_python(kernels.push)
 
 
 @given(keys=st.lists(st.integers(-5, 5), min_size=1, max_size=60))

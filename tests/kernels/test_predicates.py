@@ -7,7 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from midrib.kernels.predicates import exact_product, in_circle, orient
+from midrib.kernels import predicates as kernels
+from tests.kernels.calling import callable_from_python
+
+exact_product = callable_from_python(kernels.exact_product)
+in_circle = callable_from_python(kernels.in_circle)
+orient = callable_from_python(kernels.orient)
 
 Pair = tuple[float, float]
 coordinates = st.one_of(

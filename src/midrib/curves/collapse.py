@@ -82,8 +82,9 @@ def collapse(
         Cut the line's corners, in three rounds; after simplification. Of a line with many vertices
         it takes only a little: give ``simplify`` too for wide bows.
     **options
-        Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
-        you say otherwise.
+        Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
+        ``centring`` is ``"centred"`` and ``end_clearance`` None; with another centring stations
+        in bays are left out.
 
     Returns
     -------
@@ -104,8 +105,9 @@ def collapse(
     Notes
     -----
     The two ends come from the area's shape (``midrib.split``), the line from the radii between
-    the two sides (``midrib.minimal_radii``). Every line is covered by its area, exactly, or by the
-    repaired area where one was repaired. So are simplified and smoothed lines, which keep their
+    the two sides (``midrib.minimal_radii``), a mean width apart, and from probes in between that
+    move it to where both sides are equally far. Every line is covered by its area, exactly, or by
+    the repaired area where one was repaired. So are simplified and smoothed lines, which keep their
     ends and do not meet themselves: where a shorter way would leave the area, the vertices stay.
 
     Examples

@@ -104,7 +104,7 @@ def draw_collapse(
     paper.stroke(strokes.main, MAIN, 0.25, "main curve")
     paper.stroke(strokes.auxiliary, AUXILIARY, 0.25, "auxiliary curve")
     bold = np.clip(0.15 * np.array(strokes.widths), *LINE_WIDTH)
-    paper.stroke(strokes.line, LINE, bold, "curve of minimal radii")
+    paper.stroke(strokes.line, LINE, bold, "line")
     paper.finish(unit)
     if path is not None:
         paper.save(Path(path))

@@ -16,8 +16,6 @@ from midrib.types import Floats, Ints
 
 __all__ = ["collapse_rings"]
 
-NO_HEIGHT = np.empty(0)
-
 
 @njit(entry=True)
 def collapse_rings(
@@ -41,7 +39,7 @@ def collapse_rings(
     if largest > LARGEST or extent < SMALLEST:
         return False, nothing, 0
     rings = normalise_rings(coordinates, offsets)
-    divided = lay_out_rings(rings, NO_HEIGHT, scale_x, scale_y)
+    divided = lay_out_rings(rings, np.empty(0), scale_x, scale_y)
     if not divided.is_divided:
         return False, nothing, 0
     mesh, main, auxiliary = divided.mesh, divided.main, divided.auxiliary

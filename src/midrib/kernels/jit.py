@@ -47,19 +47,26 @@ def njit(*, entry: bool = False, inline: bool = False) -> Callable[[Kernel], Ker
     """Compile a kernel; an ``entry`` is called from Python and kept on disk.
 
     Kernels that only other kernels call are compiled into their callers, and LLVM inlines the
-    small ones. An ``inline`` one is inlined whatever its size: handing over every field of every
-    array takes as long as a short search. Arithmetic stays IEEE (no ``fastmath``): the bounds of
-    the predicates need it.
+    small ones; Python must not call them, they crash it. An ``inline`` one is inlined whatever its
+    size: handing over every field of every array takes as long as a short search. Arithmetic stays
+    IEEE (no ``fastmath``): the bounds of the predicates need it.
     """
+    options: dict[str, Any] = {
+        "cache": entry,
+        "nogil": entry,
+        "forceinline": inline,
+        "error_model": "numpy",
+        # A fifth of the time to compile went into doors to Python and C that nobody uses.
+        "no_cpython_wrapper": not entry,
+        "no_cfunc_wrapper": True,
+    }
 
     def compiled(kernel: Kernel) -> Kernel:
         config: Any = nb.config
         usual = config.CACHE_DIR
         config.CACHE_DIR = CACHE_FOLDER
         try:
-            dispatcher: Any = nb.njit(
-                kernel, cache=entry, nogil=entry, forceinline=inline, error_model="numpy"
-            )
+            dispatcher: Any = nb.njit(kernel, **options)
         finally:
             config.CACHE_DIR = usual
         return dispatcher
