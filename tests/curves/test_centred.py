@@ -87,7 +87,7 @@ def test_an_island_belongs_to_the_bank_it_lies_towards() -> None:
     line = collapse(Polygon(box(0, 0, 100, 10).exterior, [island.exterior]))
     beside = shapely.get_coordinates(line.intersection(box(42, 0, 58, 10)))
     assert len(beside) > 0
-    assert np.abs(beside[:, 1] - 5.0) == pytest.approx(3.25, abs=10 / 200)
+    assert np.abs(beside[:, 1] - 5.0) == pytest.approx(3.25, abs=10 / 100)
 
 
 def test_touching_holes_belong_to_the_bank_they_touch() -> None:

@@ -120,7 +120,7 @@ def collapse(
         str | None,
         typer.Option(
             metavar="LENGTH",
-            help="How far off the middle a centred line may be; a 200th of the mean width unless "
+            help="How far off the middle a centred line may be; a 100th of the mean width unless "
             "you say otherwise.",
             rich_help_panel=LINE,
         ),

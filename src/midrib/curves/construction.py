@@ -19,7 +19,7 @@ __all__ = ["CENTRED_WITHIN", "Centring", "Construction"]
 
 Centring: TypeAlias = Literal["none", "symmetric", "centred"]
 CENTRINGS = ("none", "symmetric", "centred")
-CENTRED_WITHIN = 1.0 / 200.0  # of the mean width, unless a tolerance is given
+CENTRED_WITHIN = 1.0 / 100.0  # of the mean width, unless a tolerance is given
 
 
 class Construction:

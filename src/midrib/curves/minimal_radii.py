@@ -136,7 +136,7 @@ def minimal_radii(
         the curve is ``"centred"``, which needs no station at every vertex.
     tolerance : float, optional
         How far, in coordinate units, a centred curve may be between its points from the line on
-        which both curves are equally far; a 200th of the mean width unless given.
+        which both curves are equally far; a 100th of the mean width unless given.
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
