@@ -8,16 +8,17 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from midrib import measures
-    from midrib.curves.collapse import Problem, collapse
+    from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
-__all__ = ["Curve", "Problem", "Strip", "collapse", "measures", "methods", "minimal_radii", "split"]
+__all__ = ["Curve", "Joint", "Problem", "Strip", "collapse", "measures", "methods", "minimal_radii", "split"]
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Strip": "midrib.strip",
     "collapse": "midrib.curves.collapse",

@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiLineString, MultiPolygon, Polygon
+from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from midrib.curves.methods import Finder, finder_of
+from midrib.curves.connecting import Joined, make_joints, plan_joints
+from midrib.curves.methods import Finder, Found, finder_of
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
@@ -26,9 +27,11 @@ from midrib.strip import PLANE
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from midrib.ends import End
+
     Areas = NDArray[np.object_]
 
-__all__ = ["Problem", "collapse"]
+__all__ = ["Joint", "Problem", "collapse"]
 
 
 @dataclass(frozen=True)
@@ -37,8 +40,18 @@ class Problem:
 
     index: Any  # position of the area, or its label in a GeoSeries
     part: int  # of a MultiPolygon, else 0
-    status: Literal["refused", "repaired", "loops cut"]
+    status: Literal["refused", "repaired", "loops cut", "joint", "no joint"]
     reason: str
+
+
+@dataclass(frozen=True)
+class Joint(Problem):
+    """What has become of an edge that two areas share: a joint of their lines, or none."""
+
+    other: Any  # the second area, as ``index``
+    other_part: int
+    point: Point  # where the lines meet, or the middle of the edge
+    kind: Literal["end to end", "side", "none"]  # side: the line of ``index`` ends on the other's
 
 
 def collapse(
@@ -48,6 +61,7 @@ def collapse(
     on_error: Literal["raise", "report"] = "raise",
     along: Any = None,
     geographic: bool | None = None,
+    connect: bool = False,
     **options: Any,
 ) -> Any:
     """Collapse areas to lines: one line without branches inside each.
@@ -68,6 +82,9 @@ def collapse(
         Whether coordinates are degrees of longitude and latitude. Lengths are then in metres; the
         line is constructed in a plane that is true to scale at the area's middle latitude. Taken
         from the CRS of a GeoSeries, otherwise False.
+    connect : bool, default False
+        Whether the lines of areas that share an edge meet: in its middle if it is at an end of
+        both, else the line of the one goes on to the line of the other. See the notes.
     **options
         Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
         you say otherwise.
@@ -94,6 +111,15 @@ def collapse(
     the two sides (``midrib.minimal_radii``). Every line is covered by its area, exactly, or by the
     repaired area where one was repaired.
 
+    With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
+    proposes: an edge that covers half a flat end or is half on it, or is within half a width of
+    another end, and is not longer than three widths. An end without one takes an edge within a
+    width that is an end of its neighbour's. Lines then meet in the same vertex, bit by bit. It is
+    on the edge but for rounding, so that lines are covered by the areas of both. ``"report"``
+    adds a ``Joint`` for each shared edge, with the reason where there is none. Edges are shared
+    where boundaries are not farther apart than the rounding of their coordinates. One more
+    O(n log n).
+
     Examples
     --------
     >>> collapse(box(0, 0, 9, 2)).length
@@ -104,6 +130,9 @@ def collapse(
     if on_error not in ("raise", "report"):
         msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
         raise ParameterError(msg)
+    if connect and (along is not None or options.get("ends", "caps") != "caps"):
+        msg = "connect places the ends of lines, give it without along and ends"
+        raise ParameterError(msg)
     find = finder_of(method, **options)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -113,7 +142,8 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    lines = collapse_all(array.ravel(), find, guides(along, array.size), bool(geographic), log)
+    flat, along = array.ravel(), guides(along, array.size)
+    lines = collapse_all(flat, find, along, bool(geographic), log, connect=connect)
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -146,6 +176,18 @@ class Log:
         elif status == "repaired":
             message = self.sentence(index, part, f"repaired: {reason}")
             warnings.warn(message, RepairedAreaWarning, stacklevel=5)
+
+    def join(self, joined: Joined, one: "Part", two: "Part") -> None:
+        """Record what has become of an edge that two areas share."""
+        if self.strict:
+            return
+        name, x, y = f"areas[{self.label(two.area)}]", *joined.point
+        status: Literal["joint", "no joint"] = "no joint" if joined.kind == "none" else "joint"
+        reason = f"{joined.kind} with {name} at ({x:.12g}, {y:.12g})"
+        if joined.kind == "none":
+            reason = f"edge shared with {name} at ({x:.12g}, {y:.12g}): {joined.reason}"
+        of, other = (self.label(one.area), one.number), (self.label(two.area), two.number)
+        self.problems.append(Joint(*of, status, reason, *other, Point(x, y), joined.kind))
 
     def sentence(self, index: int, part: int, text: str) -> str:
         """Text with the area it is about."""
@@ -190,14 +232,24 @@ class Part(NamedTuple):
 
 
 def collapse_all(
-    areas: "Areas", find: Finder, along: "Areas | None", geographic: bool, log: Log
+    areas: "Areas",
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    *,
+    connect: bool,
 ) -> "Areas":
     """Lines of a flat array of areas."""
     parts = list(valid_parts(areas, log))
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    for part, line in zip(parts, lines_of(parts, find, along, geographic, log), strict=True):
+    if connect:
+        parts_lines = connected_lines(parts, areas, find, geographic, log)
+    else:
+        parts_lines = lines_of(parts, find, along, geographic, log)
+    for part, line in zip(parts, parts_lines, strict=True):
         if line is not None:
             found[part.area].append(line)
     for i, pieces in enumerate(found):
@@ -239,22 +291,59 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             yield from (Part(i, number, piece) for piece in pieces)
 
 
+def connected_lines(
+    parts: list[Part], areas: "Areas", find: Finder, geographic: bool, log: Log
+) -> list[LineString | None]:
+    """Return the line of each part, None where it was refused; lines of neighbours meet."""
+    known = {(part.area, part.number) for part in parts}
+    others = [part for part in all_parts(areas) if (part.area, part.number) not in known]
+    every = [*parts, *others]
+    plan = plan_joints(polygons_of(every), len(parts), geographic=geographic)
+    prepared = [p._replace(polygon=area) for p, area in zip(parts, plan.areas, strict=False)]
+    lines = lines_of(prepared, find, None, geographic, log, plan.ends)
+    lines, joined = make_joints(plan, lines)
+    for row in joined:
+        log.join(row, *(every[i] for i in row.areas))
+    return lines
+
+
+def all_parts(areas: "Areas") -> Iterator[Part]:
+    """Polygons of all areas whose coordinates are finite."""
+    for i, area in enumerate(areas):
+        if isinstance(area, Polygon | MultiPolygon):
+            polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
+            for number, polygon in enumerate(polygons):
+                if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
+                    yield Part(i, number, polygon)
+
+
+def polygons_of(parts: list[Part]) -> "Areas":
+    """Array of the polygons of parts."""
+    polygons: Areas = np.empty(len(parts), dtype=object)
+    polygons[:] = [part.polygon for part in parts]
+    return polygons
+
+
 def lines_of(
-    parts: list[Part], find: Finder, along: "Areas | None", geographic: bool, log: Log
+    parts: list[Part],
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    joints: "list[tuple[End, End] | None] | None" = None,
 ) -> list[LineString | None]:
     """Return the line of each part, None where it was refused."""
     lines: list[LineString | None] = [None] * len(parts)
     if not parts:
         return lines
-    polygons: Areas = np.empty(len(parts), dtype=object)
-    polygons[:] = [part.polygon for part in parts]
+    polygons = polygons_of(parts)
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
     for i, part in enumerate(parts):
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
-            found = find(*packed.rings(i), guide, scale)
+            found = find_between(find, joints, i, *packed.rings(i), guide, scale)
         except MidribError as error:
             log.refuse(part.area, part.number, error)
             continue
@@ -265,3 +354,19 @@ def lines_of(
             points = np.column_stack([points, found.height])
         lines[i] = shapely.linestrings(points)
     return lines
+
+
+def find_between(
+    find: Finder,
+    joints: "list[tuple[End, End] | None] | None",
+    i: int,
+    *area: Any,
+) -> Found:
+    """Line of area i between the ends it is to have; where there is none, strike these out."""
+    if joints is None or joints[i] is None:
+        return find(*area)
+    try:
+        return find(*area, joints[i])
+    except MidribError:
+        joints[i] = None
+        return find(*area)

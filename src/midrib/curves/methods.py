@@ -1,7 +1,7 @@
 """The methods that collapse areas, in one registry."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from midrib.curves.joining import check_ends, join_middles
 from midrib.curves.radii import draw_radii
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from shapely import LineString
 
+    from midrib.ends import End
     from midrib.kernels.rings import Rings
     from midrib.types import Floats
 
@@ -29,7 +30,18 @@ class Found(NamedTuple):
     loops: int
 
 
-Finder: TypeAlias = "Callable[[Rings, Floats | None, LineString | None, Scale], Found]"
+class Finder(Protocol):
+    """Finds the line of one area."""
+
+    def __call__(
+        self,
+        rings: "Rings",
+        height: "Floats | None",
+        along: "LineString | None",
+        scale: Scale,
+        joints: "tuple[End, End] | None" = None,
+    ) -> Found:
+        """Return the line; ``joints`` are the ends it is to have, if they are given."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +68,13 @@ def minimal_radii_finder(
     rule = station_rule(skip=skip, **stations)
 
     def find(
-        rings: "Rings", height: "Floats | None", along: "LineString | None", scale: Scale
+        rings: "Rings",
+        height: "Floats | None",
+        along: "LineString | None",
+        scale: Scale,
+        joints: "tuple[End, End] | None" = None,
     ) -> Found:
-        layout = divide(rings, height, scale, along=along)
+        layout = divide(rings, height, scale, along=along, ends=joints)
         radii = draw_radii(layout, rule, end_clearance)
         if len(radii.points) == 0:
             msg = "no station of the main curve sees anything of the auxiliary curve"

@@ -1,0 +1,320 @@
+"""Lines of neighbouring areas that meet: joints in the middles of shared edges.
+
+ end to end          side            An edge is a joint if it is at an end of one of its two areas
+ +-----+-----+      +---------+      at least. Both end their lines in its middle, or one does, and
+ |--i--o--j--|      |----o-j--|      goes on from there to the other's line by the shortest path.
+ +-----+-----+      +---+|+---+      An edge along both areas, a road beside its verge, is none.
+                        |i|
+"""
+
+from dataclasses import dataclass, field
+from typing import Literal, NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import LineString
+
+from midrib.curves.meeting import Chain, way_to_chain
+from midrib.curves.outlines import Outline, Stretch
+from midrib.ends import End
+from midrib.errors import MidribError
+from midrib.geodesy import degree_lengths
+from midrib.layout import Scale
+from midrib.ragged import pack_areas
+from midrib.shared_edges import SharedEdge, find_shared_edges
+from midrib.types import Floats
+
+__all__ = ["Joined", "Kind", "Plan", "make_joints", "plan_joints"]
+
+Areas = NDArray[np.object_]
+Lines = list[LineString | None]
+Chains = list[Chain | None]
+Kind = Literal["end to end", "side", "none"]
+PLANE: Scale = (1.0, 1.0)
+ROUNDING = 2.0**-46  # of the coordinates: so near, two points are one but for rounding
+
+
+class Joined(NamedTuple):
+    """What became of a shared edge: a joint of two areas, or the reason why it is none."""
+
+    areas: tuple[int, int]  # of a side joint the area whose line ends on the other's comes first
+    kind: Kind
+    point: Floats  # where the lines meet, or the middle of the edge
+    reason: str
+
+
+@dataclass(eq=False)
+class Contact:
+    """A shared edge and what its two areas make of it."""
+
+    edge: SharedEdge
+    length: float
+    middle: Floats
+    stretch: dict[int, Stretch] = field(default_factory=dict)  # by area, where on its shell
+    at_end: set[int] = field(default_factory=set)  # areas at whose ends it is
+    chosen: dict[int, int] = field(default_factory=dict)  # area to the end of its line, 0 or 1
+
+    def beyond(self, i: int) -> int:
+        """Return the other one of the two areas."""
+        return self.edge.areas[1] if self.edge.areas[0] == i else self.edge.areas[0]
+
+
+Pair = tuple[Contact | None, Contact | None]
+Ends = tuple[End, End]
+
+
+@dataclass
+class Plan:
+    """Areas with the ends their lines are to have, and the shared edges these come from."""
+
+    areas: Areas  # with the ends of edges as vertices
+    ends: list[Ends | None]
+    contacts: list[Contact]
+    outlines: dict[int, Outline]
+
+
+def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
+    """Choose the ends of areas so that their lines meet.
+
+    Parameters
+    ----------
+    areas : (n,) Polygons; the first ``n_lines`` are collapsed, the others only have a boundary
+    n_lines : how many
+    geographic : whether coordinates are degrees
+
+    Notes
+    -----
+    1. Each area takes the shared edges at the ends that its shape proposes. 2. An area with an end
+    left over takes for it an edge within a width that is an end of its neighbour's: so do short
+    pieces, whose shape proposes the wrong two sides, and the areas of junctions.
+    """
+    shared = find_shared_edges(areas)
+    contacts = [contact_of(edge, geographic=geographic) for edge in shared.edges]
+    touched = sorted({i for edge in shared.edges for i in edge.areas if i < n_lines})
+    outlines = outlines_of(shared.areas, touched, geographic=geographic)
+    edges = edges_of_areas(contacts, outlines)
+    pairs: dict[int, Pair] = {}
+    candidates = {i: at_ends(i, outline, edges[i]) for i, outline in outlines.items()}
+    for i, outline in outlines.items():
+        pairs[i] = widest_way(i, outline, candidates[i])
+    takes = {(contact, i) for i, pair in pairs.items() for contact in pair if contact}
+    ends: list[Ends | None] = [None] * n_lines
+    for i, outline in outlines.items():
+        pair = pairs[i]
+        if None in pair:
+            offered = [c for c in edges[i] if (c, c.beyond(i)) in takes]
+            pair = widest_way(i, outline, with_near(outline, i, candidates[i], offered))
+        ends[i] = ends_at(i, outline, pair)
+        if ends[i] is not None:
+            for number, contact in enumerate(pair):
+                if contact is not None:
+                    contact.chosen[i] = number
+    return Plan(shared.areas, ends, contacts, outlines)
+
+
+def contact_of(edge: SharedEdge, *, geographic: bool) -> Contact:
+    """Measure a shared edge and find its middle."""
+    low, high = edge.points.min(axis=0), edge.points.max(axis=0)
+    scale = degree_lengths(np.append(low, high)) if geographic else PLANE
+    arc = np.append(0.0, np.cumsum(np.hypot(*(np.diff(edge.points, axis=0) * scale).T)))
+    k = int(np.searchsorted(arc[1:-1], arc[-1] / 2.0, side="right"))
+    share = (arc[-1] / 2.0 - arc[k]) / (arc[k + 1] - arc[k])
+    middle = edge.points[k] + share * (edge.points[k + 1] - edge.points[k])
+    return Contact(edge, float(arc[-1]), middle)
+
+
+def outlines_of(areas: Areas, which: list[int], *, geographic: bool) -> dict[int, Outline]:
+    """Outlines of some of the areas, but for those that cannot be meshed."""
+    outlines: dict[int, Outline] = {}
+    if not which:
+        return outlines
+    packed = pack_areas(areas[which])
+    for row, i in enumerate(which):
+        try:
+            scale = degree_lengths(np.array(areas[i].bounds)) if geographic else PLANE
+            outlines[i] = Outline(packed.rings(row)[0], scale)
+        except MidribError:  # the line of such an area is refused, with the reason
+            continue
+    return outlines
+
+
+def edges_of_areas(contacts: list[Contact], outlines: dict[int, Outline]) -> dict[int, list[Contact]]:
+    """Contacts on the shell of each area."""
+    edges: dict[int, list[Contact]] = {i: [] for i in outlines}
+    for contact in contacts:
+        for i, corners in zip(contact.edge.areas, contact.edge.corners, strict=True):
+            if i not in outlines or contact.edge.is_closed:
+                continue
+            on_shell = outlines[i].stretch(corners, contact.length)
+            if on_shell is not None:
+                contact.stretch[i] = on_shell
+                edges[i].append(contact)
+    return edges
+
+
+def at_ends(i: int, outline: Outline, edges: list[Contact]) -> list[list[Contact]]:
+    """Contacts at either end of an area."""
+    found = [[c for c in edges if outline.is_at(c.stretch[i], end)] for end in outline.ends]
+    for contact in (*found[0], *found[1]):
+        contact.at_end.add(i)
+    return found
+
+
+def with_near(
+    outline: Outline, i: int, candidates: list[list[Contact]], offered: list[Contact]
+) -> list[list[Contact]]:
+    """Candidates for either end, completed by edges that neighbours offer near it."""
+    return [
+        known + [c for c in offered if c not in known and outline.is_near(c.stretch[i], end)]
+        for known, end in zip(candidates, outline.ends, strict=True)
+    ]
+
+
+def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pair:
+    """Choose an edge for each end: both if possible, then long edges far apart.
+
+    Far apart, so that the line goes straight on through a junction; long, so that it follows the
+    wide arm where narrow ones meet it.
+    """
+    best: Pair = (None, None)
+    most = (0, 0.0)
+    for first in (*candidates[0], None):
+        for second in (*candidates[1], None):
+            if first is second:
+                continue
+            places = [
+                outline.middle(end) if contact is None else contact.middle
+                for contact, end in zip((first, second), outline.ends, strict=True)
+            ]
+            apart = float(np.hypot(*((places[1] - places[0]) * outline.scale)))
+            lengths = [c.length for c in (first, second) if c is not None]
+            value = (len(lengths), min(lengths) * apart)
+            if value > most:
+                best, most = (first, second), value
+    return best
+
+
+def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
+    """Ends of an area at the edges chosen: each edge is a cap, or a point if caps use up a bank."""
+    if pair == (None, None):
+        return None
+    caps, middles = [], []
+    for contact, end in zip(pair, free_ends(i, outline, pair), strict=True):
+        if contact is None:
+            caps.append(end)
+            middles.append(outline.at(outline.position(end) + outline.length(end) / 2.0))
+        else:
+            on_shell = contact.stretch[i]
+            caps.append(End(on_shell.place, on_shell.other))
+            middles.append(outline.at(on_shell.start + on_shell.length / 2.0))
+    for first, second in (
+        (caps[0], caps[1]),
+        (caps[0], middles[1]),
+        (middles[0], caps[1]),
+        (middles[0], middles[1]),
+    ):
+        if outline.leaves_two_banks(first, second):
+            return first, second
+    return None
+
+
+def free_ends(i: int, outline: Outline, pair: Pair) -> list[End]:
+    """Ends of an area, one that no edge takes being moved away from the edge that is too near it.
+
+    Then the area is about as long as wide, and the point half the way round from the middle of the
+    edge is opposite to it.
+    """
+    ends = list(outline.ends)
+    for number in (0, 1):
+        contact = pair[1 - number]
+        if pair[number] is None and contact is not None:
+            on_shell = contact.stretch[i]
+            if outline.is_near(on_shell, ends[number]):
+                round_half = on_shell.start + (on_shell.length + outline.perimeter) / 2.0
+                ends[number] = outline.at(round_half)
+    return ends
+
+
+def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
+    """Let the lines of areas with chosen ends meet.
+
+    Parameters
+    ----------
+    plan : which ends were chosen; None instead where no line could be drawn between them
+    lines : the line of each area between its ends, None where it was refused
+
+    Returns
+    -------
+    lines : with joints as vertices, bit by bit the same in both
+    joined : one row for each shared edge
+    """
+    chains = [None if line is None else Chain.of(line) for line in lines]
+    for contact in plan.contacts:
+        contact.chosen = {i: end for i, end in contact.chosen.items() if plan.ends[i] is not None}
+    joined: list[Joined] = []
+    sides: list[tuple[Contact, int, int]] = []
+    for contact in plan.contacts:
+        reason = obstacle(contact, chains) or gap_at(contact, plan.areas, chains)
+        if reason:
+            joined.append(Joined(contact.edge.areas, "none", contact.middle, reason))
+            continue
+        meet(contact, chains)
+        if len(contact.chosen) == 2:
+            joined.append(Joined(contact.edge.areas, "end to end", contact.middle, ""))
+        else:
+            (i,) = contact.chosen
+            sides.append((contact, i, contact.beyond(i)))
+    joined.extend(join_side(*side, plan.outlines, chains) for side in sides)
+    return [None if chain is None else chain.line() for chain in chains], joined
+
+
+def obstacle(contact: Contact, chains: Chains) -> str:
+    """Say why two lines do not meet at a shared edge, or nothing."""
+    there = [i < len(chains) and chains[i] is not None for i in contact.edge.areas]
+    if not all(there):
+        return "one of the areas has no line" if any(there) else "neither area has a line"
+    if contact.chosen:
+        return ""
+    if contact.edge.is_closed:
+        return "one area lies inside the other"
+    if contact.at_end:
+        return "the end there is joined to another area"
+    return "it is at an end of neither area"
+
+
+def gap_at(contact: Contact, areas: Areas, chains: Chains) -> str:
+    """Say so if lines that end in the middle of an edge would leave their areas.
+
+    They may where only one of the areas has a vertex on it: rounded, that is off the other's edge.
+    """
+    for i, end in contact.chosen.items():
+        points = chains[i].points
+        last, before = points[-end, :2], points[1 if end == 0 else -2, :2]
+        if np.abs(last - contact.middle).max() <= ROUNDING * np.abs(contact.middle).max():
+            continue
+        both = shapely.union_all(areas[list(contact.edge.areas)])
+        if not both.covers(LineString([before, contact.middle])):
+            return "a gap as wide as the rounding of the coordinates is between the areas"
+    return ""
+
+
+def meet(contact: Contact, chains: Chains) -> None:
+    """Let lines end in exactly the middle of a shared edge, at their mean height."""
+    ends = [(chains[i], end) for i, end in contact.chosen.items()]
+    height = [chain.points[-end, 2] for chain, end in ends if chain.points.shape[1] > 2]
+    for chain, end in ends:
+        has_z = chain.points.shape[1] > 2
+        chain.put_end(end, np.append(contact.middle, np.mean(height)) if has_z else contact.middle)
+
+
+def join_side(
+    contact: Contact, i: int, j: int, outlines: dict[int, Outline], chains: Chains
+) -> Joined:
+    """Lead the line of area i on to the line of area j."""
+    side, main = chains[i], chains[j]
+    way = way_to_chain(outlines[j], contact.middle, main.points[:, :2])
+    if way is None:
+        return Joined((i, j), "none", contact.middle, "no way leads from it to the other line")
+    side.go_on(contact.chosen[i], way, main.pass_through(way))
+    return Joined((i, j), "side", way.points[-1], "")

@@ -1,0 +1,152 @@
+"""Lines led to their joints: exact end points, ways on into a neighbour, vertices where these end.
+
+ main line   ----o----------t---------o----     t   the point of it nearest to m
+                            |
+             .........edge..m..............     m   middle of the shared edge, in both lines
+                            |
+                            |  side line
+"""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from midrib.curves.outlines import Outline
+from midrib.kernels.paths import Beads, join_points
+from midrib.kernels.triangulation import next_side
+from midrib.types import Floats
+
+__all__ = ["Chain", "Way", "way_to_chain"]
+
+SAME_VERTEX = 2.0**-4  # of the way there: so near to a vertex of the main line, the way ends in it
+
+
+class Way(NamedTuple):
+    """A way from a point of an area's boundary to a line inside it."""
+
+    points: Floats  # (k, 2), the first one the point itself
+    segment: int  # of the line, where the way ends
+    share: float  # of the segment
+
+
+@dataclass
+class Chain:
+    """A line that joints are added to."""
+
+    points: Floats  # (n, 2 or 3)
+    ways: dict[int, Floats] = field(default_factory=dict)  # from end 0 or 1 on, without the end
+    passed: list[tuple[int, float, Floats]] = field(default_factory=list)
+
+    @classmethod
+    def of(cls, line: LineString) -> "Chain":
+        """Chain of a line."""
+        return cls(shapely.get_coordinates(line, include_z=line.has_z))
+
+    def put_end(self, end: int, point: Floats) -> None:
+        """Move an end to a point, which it is but for rounding."""
+        self.points[-end, : point.size] = point
+
+    def pass_through(self, way: Way) -> Floats:
+        """Make the end of a way a vertex; return it, with Z if there is one."""
+        a, b = self.points[way.segment], self.points[way.segment + 1]
+        point = a + way.share * (b - a)
+        point[:2] = way.points[-1]
+        if way.share not in (0.0, 1.0):
+            self.passed.append((way.segment, way.share, point))
+        return point
+
+    def go_on(self, end: int, way: Way, last: Floats) -> None:
+        """Go on from an end by a way to the point ``last``, rising evenly."""
+        points = way.points[1:]
+        if self.points.shape[1] > 2:
+            steps = np.cumsum(np.hypot(*np.diff(way.points, axis=0).T))
+            to = last[2] if last.size > 2 else np.nan
+            z = self.points[-end, 2]
+            points = np.column_stack([points, z + (to - z) * steps / steps[-1]])
+        self.ways[end] = points
+
+    def line(self) -> LineString:
+        """Line with all its joints."""
+        self.passed.sort(key=lambda passed: (passed[0], passed[1], *passed[2]))
+        at = np.array([segment + 1 for segment, _, _ in self.passed], dtype=np.intp)
+        new = np.array([point for _, _, point in self.passed]).reshape(-1, self.points.shape[1])
+        middle = np.insert(self.points, at, new, axis=0)
+        before, after = (self.ways.get(end, middle[:0]) for end in (0, 1))
+        return LineString(distinct(np.concatenate([before[::-1], middle, after])))
+
+
+def distinct(points: Floats) -> Floats:
+    """Points without repeats in a row."""
+    keep = np.ones(len(points), dtype=np.bool_)
+    keep[1:] = (points[1:, :2] != points[:-1, :2]).any(axis=1)
+    return points[keep]
+
+
+def way_to_chain(outline: Outline, start: Floats, points: Floats) -> Way | None:
+    """Find the shortest way inside an area to the nearest point of its line.
+
+    Parameters
+    ----------
+    outline : the area
+    start : (2,) a point of its boundary, but for rounding
+    points : (n, 2) its line
+    """
+    segment, share = nearest_on(points, start, np.array(outline.scale))
+    goal = points[segment] + share * (points[segment + 1] - points[segment])
+    to_goal = np.hypot(*((goal - start) * outline.scale))
+    for corner in (0.0, 1.0):
+        vertex = points[segment + int(corner)]
+        if np.hypot(*((goal - vertex) * outline.scale)) <= SAME_VERTEX * to_goal:
+            share, goal = corner, vertex
+    path = shortest_path(outline, start, goal)
+    if path is None:
+        return None
+    if len(path) == 2:
+        return Way(path, segment, share)
+    return up_to_line(path, points)
+
+
+def up_to_line(path: Floats, points: Floats) -> Way:
+    """Cut a path with bends where it first meets the line."""
+    line = LineString(points)
+    for k in range(1, len(path)):
+        met = shapely.intersection(LineString(path[k - 1 : k + 1]), line)
+        if not met.is_empty:
+            there = shapely.get_coordinates(met)
+            first = there[np.argmin(np.hypot(*(there - path[k - 1]).T))]
+            segment, share = nearest_on(points, first, np.ones(2))
+            return Way(np.vstack([path[:k], first]), segment, share)
+    segment, share = nearest_on(points, path[-1], np.ones(2))
+    return Way(path, segment, share)
+
+
+def nearest_on(points: Floats, start: Floats, scale: Floats) -> tuple[int, float]:
+    """Segment of a chain and the share of it that are nearest to a point."""
+    a, b = points[:-1] * scale, points[1:] * scale
+    along, to = b - a, start * scale - a
+    share = np.clip((to * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
+    k = int(np.argmin(((to - share[:, None] * along) ** 2).sum(axis=1)))
+    return k, float(share[k])
+
+
+def shortest_path(outline: Outline, start: Floats, goal: Floats) -> Floats | None:
+    """Shortest path inside an area from a point of its boundary to a point of its inside."""
+    mesh = outline.boundary.mesh
+    sides = np.flatnonzero(mesh.twin < 0)
+    corners = np.stack([mesh.tri[sides], mesh.tri[[next_side(e) for e in sides]]], axis=1)
+    a, b = (np.column_stack([mesh.x[v], mesh.y[v]]) for v in corners.T)
+    along, to = b - a, start - a
+    share = np.clip((to * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
+    k = int(np.argmin(((to - share[:, None] * along) ** 2).sum(axis=1)))
+    vertex = int(corners[k, int(share[k])]) if share[k] in (0.0, 1.0) else -1
+    origin = np.array([start, start])
+    side, at = np.full(2, sides[k]), np.full(2, vertex)
+    beads = Beads(np.array([start, goal]), origin, side, at)
+    path, source = join_points(mesh, beads, *outline.scale)
+    if source.size < 2 or source[0] != 0 or source[-1] != 1:
+        return None
+    path[0] = start
+    return path
