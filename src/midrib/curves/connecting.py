@@ -32,6 +32,8 @@ Lines = list[LineString | None]
 Chains = list[Chain | None]
 Kind = Literal["end to end", "side", "none"]
 PLANE: Scale = (1.0, 1.0)
+HALF = 0.5
+ROUNDS = 64  # of choosing: a run of so many short pieces is joined from either side
 ROUNDING = 2.0**-46  # of the coordinates: so near, two points are one but for rounding
 
 
@@ -85,32 +87,49 @@ def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
 
     Notes
     -----
-    1. Each area takes the shared edges at the ends that its shape proposes. 2. An area with an end
-    left over takes for it an edge within a width that is an end of its neighbour's: so do short
-    pieces, whose shape proposes the wrong two sides, and the areas of junctions.
+    1. Each area takes the shared edges at the ends that its shape proposes, and so offers them to
+    its neighbours. 2. Each area looks again, now also at edges that are offered within a width of
+    its ends. An end that is left over where the area is about as long as wide moves to the other
+    side from the edge that it does take, and may meet one there. So do short pieces, whose shape
+    proposes the wrong two sides. 3. Again, until no area changes its mind.
     """
     shared = find_shared_edges(areas)
     contacts = [contact_of(edge, geographic=geographic) for edge in shared.edges]
     touched = sorted({i for edge in shared.edges for i in edge.areas if i < n_lines})
     outlines = outlines_of(shared.areas, touched, geographic=geographic)
     edges = edges_of_areas(contacts, outlines)
-    pairs: dict[int, Pair] = {}
-    candidates = {i: at_ends(i, outline, edges[i]) for i, outline in outlines.items()}
-    for i, outline in outlines.items():
-        pairs[i] = widest_way(i, outline, candidates[i])
-    takes = {(contact, i) for i, pair in pairs.items() for contact in pair if contact}
+    pairs = agreed_pairs(outlines, edges)
     ends: list[Ends | None] = [None] * n_lines
-    for i, outline in outlines.items():
-        pair = pairs[i]
-        if None in pair:
-            offered = [c for c in edges[i] if (c, c.beyond(i)) in takes]
-            pair = widest_way(i, outline, with_near(outline, i, candidates[i], offered))
-        ends[i] = ends_at(i, outline, pair)
+    for i, pair in pairs.items():
+        ends[i] = ends_at(i, outlines[i], pair)
         if ends[i] is not None:
             for number, contact in enumerate(pair):
                 if contact is not None:
                     contact.chosen[i] = number
     return Plan(shared.areas, ends, contacts, outlines)
+
+
+def agreed_pairs(
+    outlines: dict[int, Outline], edges: dict[int, list[Contact]]
+) -> dict[int, Pair]:
+    """Choose edges for the ends of all areas, in rounds; see ``plan_joints``."""
+    candidates = {i: at_ends(i, outline, edges[i]) for i, outline in outlines.items()}
+    pairs: dict[int, Pair] = {}
+    heard: dict[int, list[Contact] | None] = dict.fromkeys(outlines)
+    takes: set[tuple[Contact, int]] = set()
+    for _ in range(ROUNDS):
+        before = takes
+        for i, outline in outlines.items():
+            offered = [c for c in edges[i] if (c, c.beyond(i)) in before]
+            if offered == heard[i]:
+                continue
+            heard[i] = offered
+            pair = widest_way(i, outline, with_near(outline, i, candidates[i], offered))
+            pairs[i] = with_opposite(i, outline, pair, edges[i])
+        takes = {(contact, i) for i, pair in pairs.items() for contact in pair if contact}
+        if takes == before:
+            break
+    return pairs
 
 
 def contact_of(edge: SharedEdge, *, geographic: bool) -> Contact:
@@ -164,7 +183,7 @@ def at_ends(i: int, outline: Outline, edges: list[Contact]) -> list[list[Contact
 def with_near(
     outline: Outline, i: int, candidates: list[list[Contact]], offered: list[Contact]
 ) -> list[list[Contact]]:
-    """Candidates for either end, completed by edges that neighbours offer near it."""
+    """Complete the candidates for either end by edges that neighbours offer near it."""
     return [
         known + [c for c in offered if c not in known and outline.is_near(c.stretch[i], end)]
         for known, end in zip(candidates, outline.ends, strict=True)
@@ -174,8 +193,9 @@ def with_near(
 def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pair:
     """Choose an edge for each end: both if possible, then long edges far apart.
 
-    Far apart, so that the line goes straight on through a junction; long, so that it follows the
-    wide arm where narrow ones meet it.
+    Far apart, so that the line goes straight on through a junction; long, up to the area's width,
+    so that it follows the wide arm where narrow ones meet it. An edge that is not at an end of the
+    area itself counts half.
     """
     best: Pair = (None, None)
     most = (0, 0.0)
@@ -188,11 +208,36 @@ def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pai
                 for contact, end in zip((first, second), outline.ends, strict=True)
             ]
             apart = float(np.hypot(*((places[1] - places[0]) * outline.scale)))
-            lengths = [c.length for c in (first, second) if c is not None]
-            value = (len(lengths), min(lengths) * apart)
+            taken = [c for c in (first, second) if c is not None]
+            wide = min([outline.width, *(c.length for c in taken)])
+            own = HALF ** sum(i not in c.at_end for c in taken)
+            value = (len(taken), wide * apart * own)
             if value > most:
                 best, most = (first, second), value
     return best
+
+
+def with_opposite(i: int, outline: Outline, pair: Pair, edges: list[Contact]) -> Pair:
+    """Complete a pair with one edge, where the area is short, by the edge on its other side."""
+    for number in (0, 1):
+        contact = pair[1 - number]
+        if pair[number] is None and contact is not None:
+            end = free_end(i, outline, number, contact)
+            if end == outline.ends[number]:
+                continue
+            for edge in edges:
+                is_as_long = edge.length >= HALF * contact.length
+                if edge is not contact and is_as_long and not outline.gap(edge.stretch[i], end):
+                    return (edge, contact) if number == 0 else (contact, edge)
+    return pair
+
+
+def free_end(i: int, outline: Outline, number: int, contact: Contact) -> End:
+    """Return an end that no edge takes; moved to the other side from one that is too near it."""
+    on_shell = contact.stretch[i]
+    if outline.is_near(on_shell, outline.ends[number]):
+        return outline.at(on_shell.start + (on_shell.length + outline.perimeter) * HALF)
+    return outline.ends[number]
 
 
 def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
@@ -200,14 +245,17 @@ def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
     if pair == (None, None):
         return None
     caps, middles = [], []
-    for contact, end in zip(pair, free_ends(i, outline, pair), strict=True):
+    for number, contact in enumerate(pair):
         if contact is None:
+            other = pair[1 - number]
+            assert other is not None
+            end = free_end(i, outline, number, other)
             caps.append(end)
-            middles.append(outline.at(outline.position(end) + outline.length(end) / 2.0))
+            middles.append(outline.at(outline.position(end) + outline.length(end) * HALF))
         else:
             on_shell = contact.stretch[i]
             caps.append(End(on_shell.place, on_shell.other))
-            middles.append(outline.at(on_shell.start + on_shell.length / 2.0))
+            middles.append(outline.at(on_shell.start + on_shell.length * HALF))
     for first, second in (
         (caps[0], caps[1]),
         (caps[0], middles[1]),
@@ -217,23 +265,6 @@ def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
         if outline.leaves_two_banks(first, second):
             return first, second
     return None
-
-
-def free_ends(i: int, outline: Outline, pair: Pair) -> list[End]:
-    """Ends of an area, one that no edge takes being moved away from the edge that is too near it.
-
-    Then the area is about as long as wide, and the point half the way round from the middle of the
-    edge is opposite to it.
-    """
-    ends = list(outline.ends)
-    for number in (0, 1):
-        contact = pair[1 - number]
-        if pair[number] is None and contact is not None:
-            on_shell = contact.stretch[i]
-            if outline.is_near(on_shell, ends[number]):
-                round_half = on_shell.start + (on_shell.length + outline.perimeter) / 2.0
-                ends[number] = outline.at(round_half)
-    return ends
 
 
 def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
@@ -259,7 +290,7 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
         if reason:
             joined.append(Joined(contact.edge.areas, "none", contact.middle, reason))
             continue
-        meet(contact, chains)
+        meet(contact, plan.areas, chains)
         if len(contact.chosen) == 2:
             joined.append(Joined(contact.edge.areas, "end to end", contact.middle, ""))
         else:
@@ -299,10 +330,13 @@ def gap_at(contact: Contact, areas: Areas, chains: Chains) -> str:
     return ""
 
 
-def meet(contact: Contact, chains: Chains) -> None:
-    """Let lines end in exactly the middle of a shared edge, at their mean height."""
+def meet(contact: Contact, areas: Areas, chains: Chains) -> None:
+    """Let lines end in exactly the middle of a shared edge, at their mean height, without hooks."""
     ends = [(chains[i], end) for i, end in contact.chosen.items()]
     height = [chain.points[-end, 2] for chain, end in ends if chain.points.shape[1] > 2]
+    reach = np.abs(contact.edge.points - contact.middle).max()
+    for i, end in contact.chosen.items():
+        chains[i].unhook(end, areas[i], reach)
     for chain, end in ends:
         has_z = chain.points.shape[1] > 2
         chain.put_end(end, np.append(contact.middle, np.mean(height)) if has_z else contact.middle)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString
+from shapely import LineString, Polygon
 
 from midrib.curves.outlines import Outline
 from midrib.kernels.paths import Beads, join_points
@@ -22,6 +22,8 @@ from midrib.types import Floats
 __all__ = ["Chain", "Way", "way_to_chain"]
 
 SAME_VERTEX = 2.0**-4  # of the way there: so near to a vertex of the main line, the way ends in it
+
+SHARP = np.cos(np.radians(40.0))  # a hook turns by more
 
 
 class Way(NamedTuple):
@@ -48,6 +50,24 @@ class Chain:
     def put_end(self, end: int, point: Floats) -> None:
         """Move an end to a point, which it is but for rounding."""
         self.points[-end, : point.size] = point
+
+    def unhook(self, end: int, area: Polygon, reach: float) -> None:
+        """Straighten a line that turns sharply within ``reach`` of an end, if the area allows it.
+
+        Where an edge is a part of a cap, the last radius crosses in the middle of the cap.
+        """
+        points = self.points if end == 0 else self.points[::-1]
+        plane = points[:, :2]
+        far = np.abs(plane - plane[0]).max(axis=1) > reach
+        k = int(np.argmax(far))
+        if k < 2:
+            return
+        steps = np.diff(plane[: k + 1], axis=0)
+        steps /= np.hypot(*steps.T)[:, None]
+        is_sharp = (steps[1:] * steps[:-1]).sum(axis=1) < SHARP
+        if is_sharp.any() and area.covers(LineString(plane[[0, k]])):
+            points = np.delete(points, np.arange(1, k), axis=0)
+            self.points = points if end == 0 else points[::-1]
 
     def pass_through(self, way: Way) -> Floats:
         """Make the end of a way a vertex; return it, with Z if there is one."""
