@@ -33,6 +33,7 @@ Chains = list[Chain | None]
 Kind = Literal["end to end", "side", "none"]
 PLANE: Scale = (1.0, 1.0)
 HALF = 0.5
+OFFERED = HALF**HALF  # what an edge counts that is only a neighbour's end: two of them half
 ROUNDS = 64  # of choosing: a run of so many short pieces is joined from either side
 ROUNDING = 2.0**-46  # of the coordinates: so near, two points are one but for rounding
 
@@ -195,7 +196,7 @@ def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pai
 
     Far apart, so that the line goes straight on through a junction; long, up to the area's width,
     so that it follows the wide arm where narrow ones meet it. An edge that is not at an end of the
-    area itself counts half.
+    area itself counts less.
     """
     best: Pair = (None, None)
     most = (0, 0.0)
@@ -210,7 +211,7 @@ def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pai
             apart = float(np.hypot(*((places[1] - places[0]) * outline.scale)))
             taken = [c for c in (first, second) if c is not None]
             wide = min([outline.width, *(c.length for c in taken)])
-            own = HALF ** sum(i not in c.at_end for c in taken)
+            own = OFFERED ** sum(i not in c.at_end for c in taken)
             value = (len(taken), wide * apart * own)
             if value > most:
                 best, most = (first, second), value
@@ -350,5 +351,6 @@ def join_side(
     way = way_to_chain(outlines[j], contact.middle, main.points[:, :2])
     if way is None:
         return Joined((i, j), "none", contact.middle, "no way leads from it to the other line")
-    side.go_on(contact.chosen[i], way, main.pass_through(way))
-    return Joined((i, j), "side", way.points[-1], "")
+    point = main.pass_through(way)
+    side.go_on(contact.chosen[i], way, point)
+    return Joined((i, j), "side", point[:2], "")

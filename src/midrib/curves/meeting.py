@@ -72,15 +72,17 @@ class Chain:
     def pass_through(self, way: Way) -> Floats:
         """Make the end of a way a vertex; return it, with Z if there is one."""
         a, b = self.points[way.segment], self.points[way.segment + 1]
-        point = a + way.share * (b - a)
+        if way.share in (0.0, 1.0):
+            return b if way.share else a
+        point: Floats = a + way.share * (b - a)
         point[:2] = way.points[-1]
-        if way.share not in (0.0, 1.0):
-            self.passed.append((way.segment, way.share, point))
+        self.passed.append((way.segment, way.share, point))
         return point
 
     def go_on(self, end: int, way: Way, last: Floats) -> None:
         """Go on from an end by a way to the point ``last``, rising evenly."""
-        points = way.points[1:]
+        points = way.points[1:].copy()
+        points[-1] = last[:2]
         if self.points.shape[1] > 2:
             steps = np.cumsum(np.hypot(*np.diff(way.points, axis=0).T))
             to = last[2] if last.size > 2 else np.nan

@@ -22,7 +22,8 @@ __all__ = ["Outline", "Stretch"]
 
 HALF = 0.5
 LONGEST_AT_END = 3.0  # widths: a cut at 20 degrees to the banks
-WITHIN = 1.0  # widths of an end: here an edge may take it over if it is the neighbour's end
+# Widths from an end within which an edge may take it over if it is an end of the neighbour's.
+NEAR, NEAR_IF_WIDE = 1.0, 2.0
 
 
 @dataclass(frozen=True)
@@ -91,8 +92,10 @@ class Outline:
         return self.gap(edge, end) <= HALF * width
 
     def is_near(self, edge: Stretch, end: End) -> bool:
-        """Whether an edge is within a width of an end."""
-        return self.gap(edge, end) <= WITHIN * max(self.length(end), self.width)
+        """Whether an edge is within a width of an end; if it is a wide one, within two."""
+        width = max(self.length(end), self.width)
+        reach = NEAR_IF_WIDE if edge.length >= HALF * self.width else NEAR
+        return self.gap(edge, end) <= reach * width
 
     def common(self, edge: Stretch, end: End) -> float:
         """Length of the shell that an edge and an end have in common."""
