@@ -113,8 +113,9 @@ def collapse(
 
     With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
     proposes: an edge that covers half a flat end or is half on it, or is within half a width of
-    another end, and is not longer than three widths. An end without one takes an edge within a
-    width that is an end of its neighbour's. Lines then meet in the same vertex, bit by bit. It is
+    another end; unless the area reaches less than half as far from it as it is long. It also looks
+    at edges within a width (wide ones, two) of its ends that are ends of its neighbours. Of
+    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by bit. It is
     on the edge but for rounding, so that lines are covered by the areas of both. ``"report"``
     adds a ``Joint`` for each shared edge, with the reason where there is none. Edges are shared
     where boundaries are not farther apart than the rounding of their coordinates. One more

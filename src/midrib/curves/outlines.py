@@ -4,8 +4,8 @@
       c---------+....p              proposes: a cap p q, or a point.
   ----'               |             An edge is *at* an end if it covers at least half of the cap,
                       | end         or is at least half on it; at a tip or round end, if it is
-  --------------------q             within half a width of it. It is no longer than three widths
-                                    there: what is longer runs along the area, or round it.
+  --------------------q             within half a width of it. The area must reach at least half
+                                    as far from it as it is long, else it runs along the area.
 """
 
 from dataclasses import dataclass
@@ -21,7 +21,6 @@ from midrib.types import Floats
 __all__ = ["Outline", "Stretch"]
 
 HALF = 0.5
-LONGEST_AT_END = 3.0  # widths: a cut at 20 degrees to the banks
 # Widths from an end within which an edge may take it over if it is an end of the neighbour's.
 NEAR, NEAR_IF_WIDE = 1.0, 2.0
 
@@ -84,12 +83,17 @@ class Outline:
     def is_at(self, edge: Stretch, end: End) -> bool:
         """Whether an edge is at an end."""
         cap = self.length(end)
-        width = max(cap, self.width)
-        if edge.length > LONGEST_AT_END * width:
-            return False
         if cap:
-            return self.common(edge, end) >= HALF * min(cap, edge.length)
-        return self.gap(edge, end) <= HALF * width
+            is_on = self.common(edge, end) >= HALF * min(cap, edge.length)
+        else:
+            is_on = self.gap(edge, end) <= HALF * self.width
+        return is_on and self.depth(edge) >= HALF * edge.length
+
+    def depth(self, edge: Stretch) -> float:
+        """How far the area reaches from the straight line between the two ends of an edge."""
+        points = (self.points - self.points[edge.place]) * self.scale
+        x, y = points[edge.other]
+        return float(np.abs(points @ (-y, x)).max() / np.hypot(x, y))
 
     def is_near(self, edge: Stretch, end: End) -> bool:
         """Whether an edge is within a width of an end; if it is a wide one, within two."""
