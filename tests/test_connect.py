@@ -1,5 +1,6 @@
 """Lines of areas that share an edge meet there, in the same vertex, or the report says why not."""
 
+import itertools
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from shapely import LineString, Polygon, box
 from shapely.affinity import scale
 
-from midrib import Joint, collapse
+from midrib import Joint, collapse, split
 from midrib.errors import ParameterError
 from midrib.shared_edges import find_shared_edges, rounding_of
 
@@ -69,7 +70,7 @@ def test_a_river_cut_into_100_pieces_is_one_line(width: float) -> None:
     assert whole.geom_type == "LineString"
     assert whole.is_simple
     assert shapely.union_all(pieces).covers(whole)
-    for one, two in zip(lines[:-1], lines[1:], strict=True):
+    for one, two in itertools.pairwise(lines):
         assert len(ends_of(one) & ends_of(two)) == 1
 
 
@@ -77,7 +78,9 @@ def test_a_real_river_cut_into_100_pieces_is_one_line() -> None:
     pyogrio = pytest.importorskip("pyogrio")
     pytest.importorskip("geopandas")
     area = pyogrio.read_dataframe(EXAMPLES, layer="river").geometry.iloc[0]
-    pieces = cut_along(area, 100)
+    pieces = cut_along(area, 103)
+    assert len(pieces) >= 100
+    assert shapely.is_valid(pieces).all()
     lines, joints = connected(pieces, geographic=True)
     assert len([j for j in joints if j.kind == "end to end"]) == len(pieces) - 1
     whole = one_line(lines)
@@ -86,24 +89,23 @@ def test_a_real_river_cut_into_100_pieces_is_one_line() -> None:
 
 
 def cut_along(area: Polygon, count: int) -> list[Polygon]:
-    """Pieces between vertices of the two banks, cut where the cuts lie inside the area."""
-    from midrib import split
-
+    """Pieces of a river, cut across from bank to bank where it is narrowest about every station."""
     strip = split(area)
     main, auxiliary = (shapely.get_coordinates(c) for c in (strip.main, strip.auxiliary))
     shapely.prepare(area)
     tree = shapely.STRtree(shapely.points(auxiliary))
+    beside, width = tree.query_nearest(
+        shapely.points(main), return_distance=True, all_matches=False
+    )
     pieces, a, b = [], 0, 0
     for k in np.linspace(0, len(main) - 1, count + 1)[1:-1].astype(int):
-        for i in range(k, k + 60):
-            j = int(tree.nearest(shapely.Point(main[i])))
-            cut = LineString([main[i], auxiliary[j]])
-            if i > a + 2 and j > b + 2 and area.covers(cut) and j < len(auxiliary) - 3:
-                piece = Polygon([*main[a : i + 1], *auxiliary[b : j + 1][::-1]])
-                if piece.is_valid:
-                    pieces.append(piece)
-                    a, b = i, j
-                    break
+        for i in k + np.argsort(width[k : k + 80]):
+            j = int(beside[1, i])
+            is_free = area.covers(LineString([main[i], auxiliary[j]]))
+            if is_free and i > a + 2 and b + 2 < j < len(auxiliary) - 3:
+                pieces.append(Polygon([*main[a : i + 1], *auxiliary[b : j + 1][::-1]]))
+                a, b = i, j
+                break
     pieces.append(Polygon([*main[a:], *auxiliary[b:][::-1]]))
     return pieces
 
@@ -126,11 +128,8 @@ def test_at_a_confluence_the_narrow_arm_ends_on_the_wide_ones() -> None:
     arm = Polygon([(100, 0), (180, -60), (190, -50), (100, 14)])
     narrow = Polygon([(100, 14), (190, 60), (185, 66), (100, 20)])
     lines, joints = connected([stem, arm, narrow])
-    kinds = {tuple(sorted((joint.index, joint.other))): joint.kind for joint in joints}
-    assert kinds == {(0, 1): "end to end", (0, 2): "side", (1, 2): "none"} or kinds == {
-        (0, 1): "end to end",
-        (0, 2): "side",
-    }
+    assert [(j.index, j.other) for j in joints if j.kind == "end to end"] == [(0, 1)]
+    assert [(j.index, j.other) for j in joints if j.kind == "side"] == [(2, 0)]
     assert (100.0, 7.0) in ends_of(lines[0]) & ends_of(lines[1])
     assert_inside(lines, [stem, arm, narrow])
     side = next(joint for joint in joints if joint.kind == "side")
@@ -174,12 +173,14 @@ def test_a_road_goes_on_beside_the_verge_that_goes_on() -> None:
 
 
 def test_a_vertex_of_only_one_area_does_not_part_an_edge() -> None:
-    a, b = Polygon([(0, 0), (30, 0), (30, 7), (0, 7)]), Polygon([(30, 0), (60, 0), (60, 7), (30, 7)])
+    a, b = (
+        Polygon([(0, 0), (30, 0), (30, 7), (0, 7)]),
+        Polygon([(30, 0), (60, 0), (60, 7), (30, 7)]),
+    )
     turn = np.array([[0.8, -0.6], [0.6, 0.8]])
     a, b = (shapely.transform(g, lambda p: p @ turn + 1000.0 / 3.0) for g in (a, b))
     ring = shapely.get_coordinates(b)
     halved = Polygon(np.insert(ring, 4, ring[3] + 0.37 * (ring[4] - ring[3]), axis=0))
-    assert not shapely.union_all([a, halved]).equals(shapely.union_all([a, b])) or True
     (edge,) = find_shared_edges(np.array([a, halved])).edges
     assert len(edge.points) == 3
     lines, joints = connected([a, halved])
@@ -318,4 +319,4 @@ def pairs_that_touch(areas: Areas) -> list[tuple[int, int]]:
 
 def mean_width(area: Polygon) -> float:
     """Twice the area over the perimeter of its shell."""
-    return 2.0 * Polygon(area.exterior).area / area.exterior.length
+    return float(2.0 * Polygon(area.exterior).area / area.exterior.length)

@@ -14,7 +14,17 @@ if TYPE_CHECKING:
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
-__all__ = ["Curve", "Joint", "Problem", "Strip", "collapse", "measures", "methods", "minimal_radii", "split"]
+__all__ = [
+    "Curve",
+    "Joint",
+    "Problem",
+    "Strip",
+    "collapse",
+    "measures",
+    "methods",
+    "minimal_radii",
+    "split",
+]
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",

@@ -158,7 +158,9 @@ def with_others(
 def chains(nodes: Nodes, points: Floats, coordinates: Floats) -> tuple[list[SharedEdge], Bools]:
     """Shared edges, and which nodes that are no vertices of their area are ends of one."""
     mine, other = shared_pieces(nodes)
-    row_of = {(int(e), int(nodes.area[f])): p for p, (e, f) in enumerate(zip(mine, other, strict=True))}
+    row_of = {
+        (int(e), int(nodes.area[f])): p for p, (e, f) in enumerate(zip(mine, other, strict=True))
+    }
     after = [
         row_of.get((int(nodes.following[e]), int(nodes.area[f])), -1)
         for e, f in zip(mine, other, strict=True)
@@ -220,7 +222,9 @@ def edge_of(
     ends = [walk[0], walk[-1]]
     is_closed = bool(nodes.vertex[ends[0]] == nodes.vertex[ends[1]])
     corners = [
-        np.array([points[nodes.vertex[n]] if nodes.share[n] else coordinates[nodes.row[n]] for n in e])
+        np.array(
+            [points[nodes.vertex[n]] if nodes.share[n] else coordinates[nodes.row[n]] for n in e]
+        )
         for e in (ends, ends_beside)
     ]
     pair = int(nodes.area[ends[0]]), int(nodes.area[ends_beside[0]])

@@ -164,3 +164,37 @@ def test_figures_are_drawn(midrib: Runner, tmp_path: Path) -> None:
     figure = tmp_path / "picture.svg"
     assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
     assert "<svg" in figure.read_text()
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "parquet", "shp"])
+def test_joints_are_written_beside_the_lines(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    aside = "POLYGON ((40 0, 50 0, 50 -70, 40 -70, 40 0))"
+    source = write(tmp_path / "in.gpkg", [STRIP, None, onwards, aside])
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("collapse", source, out, "--connect", "--out-layer", "lines")
+    assert outcome.code == 0, outcome.err
+    assert "1 joints end to end, 1 on the side, 0 shared edges without" in outcome.err
+    place, layer = (
+        (out, "lines_joints")
+        if ending == "gpkg"
+        else (tmp_path / f"out_joints.{ending}", "out_joints")
+    )
+    _, rows, points = read_all(place, layer)
+    assert rows["area"].to_pylist() == [0, 3]
+    assert rows["other"].to_pylist() == [2, 0]
+    assert rows["kind"].to_pylist() == ["end to end", "side"]
+    assert [(p.x, p.y) for p in points] == [(90.0, 10.0), (45.0, 10.0)]
+    _, attributes, lines = read_all(out, "lines" if ending == "gpkg" else "out")
+    assert attributes["status"].to_pylist() == ["ok", "no geometry", "ok", "ok"]
+    assert lines[0].coords[-1] in {lines[2].coords[0], lines[2].coords[-1]}
+
+
+@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])
+def test_connect_excludes_what_places_ends(
+    option: list[str], midrib: Runner, tmp_path: Path
+) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    outcome = midrib("collapse", source, tmp_path / "out.gpkg", "--connect", *option)
+    assert outcome.code == 2
+    assert f"--connect excludes {option[0]}" in outcome.err

@@ -8,17 +8,19 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
-from midrib.curves.collapse import Problem, collapse
+from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from midrib.cli.guides import Guides
     from midrib.cli.report import Report
     from midrib.formats.reading import Batch, Geometries, Source
     from midrib.types import Floats
 
-__all__ = ["Results", "check_options", "collapse_layer"]
+__all__ = ["Results", "check_options", "collapse_layer", "joint_features"]
 
 NO_GEOMETRY = "no geometry"
 
@@ -32,6 +34,7 @@ class Results:
     lines: "list[Geometries]" = field(default_factory=list)
     refused_attributes: list[pa.Table] = field(default_factory=list)
     refused_areas: "list[Geometries]" = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
     total_length: float = 0.0
     n_features: int = 0
     n_lines: int = 0
@@ -50,21 +53,27 @@ def collapse_layer(
     options: dict[str, Any],
     guides: "Guides",
     report: "Report",
+    *,
+    connect: bool = False,
 ) -> Results:
-    """Collapse all features of a layer, a batch at a time."""
+    """Collapse all features of a layer: a batch at a time, or all at once if lines are to meet."""
     results = Results(source)
     geographic = is_geographic(source.crs)
     report.start()
-    for batch in report.track(source.batches(), source.count):
+    batches = report.track(source.batches(), source.count)
+    for batch in [whole(batches)] if connect else batches:
         along, unreadable = guides.of(batch)
         lines, problems = collapse(
             batch.geometries,
             method,
             on_error="report",
-            along=along,
+            along=None if connect else along,
             geographic=geographic,
+            connect=connect,
             **options,
         )
+        results.joints += [p for p in problems if isinstance(p, Joint)]
+        problems = [p for p in problems if not isinstance(p, Joint)]
         lines[shapely.is_empty(lines)] = None
         refused = dict(batch.unreadable) | unreadable
         lines[list(unreadable)] = None
@@ -74,6 +83,30 @@ def collapse_layer(
         results.n_features += len(lines)
         results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
     return results
+
+
+def whole(batches: "Iterable[Batch]") -> "Batch":
+    """All features in one batch."""
+    parts = list(batches)
+    unreadable = {b.first + row: why for b in parts for row, why in b.unreadable.items()}
+    return parts[0]._replace(
+        attributes=pa.concat_tables([b.attributes for b in parts]),
+        geometries=np.concatenate([b.geometries for b in parts]),
+        unreadable=unreadable,
+    )
+
+
+def joint_features(joints: list[Joint]) -> "tuple[pa.Table, Geometries]":
+    """Rows about joints, and edges without one, and their points."""
+    points = np.empty(len(joints), dtype=object)
+    points[:] = [joint.point for joint in joints]
+    columns = {
+        "area": pa.array([joint.index for joint in joints], type=pa.int64()),
+        "other": pa.array([joint.other for joint in joints], type=pa.int64()),
+        "kind": pa.array([joint.kind for joint in joints], type=pa.string()),
+        "reason": pa.array([joint.reason for joint in joints], type=pa.string()),
+    }
+    return pa.table(columns), points
 
 
 def statuses(batch: "Batch", problems: list[Problem], refused: dict[int, str]) -> list[str]:

@@ -1,11 +1,13 @@
 """Where the results of ``midrib collapse`` go: lines, refused areas, a figure, a summary."""
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
 
+from midrib.cli.job import joint_features
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import format_of
@@ -31,13 +33,28 @@ class Places(NamedTuple):
     source: Path
     out: Path
     figure: Path | None
+    connect: bool = False
 
     @property
     def refused(self) -> Path:
         """File for refused areas: OUT where its format has layers, else one beside it."""
+        return self.beside("refused")
+
+    @property
+    def joints(self) -> Path:
+        """File for joints, likewise."""
+        return self.beside("joints")
+
+    def beside(self, name: str) -> Path:
+        """File for a second layer."""
         if format_of(self.out).has_layers:
             return self.out
-        return self.out.with_name(f"{self.out.stem}_refused{self.out.suffix}")
+        return self.out.with_name(f"{self.out.stem}_{name}{self.out.suffix}")
+
+    @property
+    def all(self) -> list[Path]:
+        """Every file for features that a run may write."""
+        return [self.out, self.refused, *([self.joints] if self.connect else [])]
 
     def check(self, *, overwrite: bool) -> None:
         """Refuse places that cannot be written to, before any work is done.
@@ -51,7 +68,7 @@ class Places(NamedTuple):
         if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
             msg = f"OUT {str(self.out)!r} is IN, expected another file"
             raise ParameterError(msg)
-        check_free([self.out, self.refused], "OUT", overwrite=overwrite)
+        check_free(self.all, "OUT", overwrite=overwrite)
         if self.figure is not None:
             check_figure(self.figure)
             check_free([self.figure], "--figure", overwrite=overwrite)
@@ -67,7 +84,7 @@ class Places(NamedTuple):
             LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
-        with staged(self.out.parent, stale=[self.refused]) as stage:
+        with staged(self.out.parent, stale=self.all[1:]) as stage:
             notes = write_layer(stage / self.out.name, lines)
             if results.n_refused:
                 refused = lines._replace(
@@ -77,13 +94,25 @@ class Places(NamedTuple):
                     kind=source.kind,
                 )
                 notes += write_layer(stage / self.refused.name, refused)
+            if self.connect:
+                table, points = joint_features(results.joints)
+                joints = lines._replace(
+                    layer=f"{layer}_joints", attributes=table, geometries=points, kind="Point"
+                )
+                notes += write_layer(stage / self.joints.name, joints)
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
         report.say(summary(results, report.elapsed))
         report.say(f"written to {self.out}")
         if results.n_refused:
-            where = f"layer {layer}_refused of {self.out}" if self.refused == self.out else ""
-            report.say(f"refused areas, with reasons, in {where or self.refused}")
+            report.say(f"refused areas, with reasons, in {self.where('refused', layer)}")
+        if self.connect:
+            report.say(f"{joints_text(results)}, in {self.where('joints', layer)}")
+
+    def where(self, name: str, layer: str) -> str:
+        """Say where a second layer is."""
+        file = self.beside(name)
+        return f"layer {layer}_{name} of {file}" if file == self.out else str(file)
 
 
 def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:
@@ -108,6 +137,15 @@ def summary(results: "Results", seconds: float) -> str:
     return (
         f"{results.n_lines} lines of {results.n_features} features, {results.n_refused} refused, "
         f"{results.n_repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
+    )
+
+
+def joints_text(results: "Results") -> str:
+    """Count joints."""
+    made = Counter(joint.kind for joint in results.joints)
+    return (
+        f"{made['end to end']} joints end to end, {made['side']} on the side, "
+        f"{made['none']} shared edges without"
     )
 
 

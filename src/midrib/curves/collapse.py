@@ -20,6 +20,8 @@ from midrib.errors import (
     RepairedAreaWarning,
 )
 from midrib.geodesy import degree_lengths
+from midrib.kernels.rings import Rings
+from midrib.layout import Scale
 from midrib.ragged import pack_areas
 from midrib.repair import repaired
 from midrib.strip import PLANE
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from midrib.ends import End
+    from midrib.types import Floats
 
     Areas = NDArray[np.object_]
 
@@ -114,12 +117,11 @@ def collapse(
     With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
     proposes: an edge that covers half a flat end or is half on it, or is within half a width of
     another end; unless the area reaches less than half as far from it as it is long. It also looks
-    at edges within a width (wide ones, two) of its ends that are ends of its neighbours. Of
-    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by bit. It is
-    on the edge but for rounding, so that lines are covered by the areas of both. ``"report"``
-    adds a ``Joint`` for each shared edge, with the reason where there is none. Edges are shared
-    where boundaries are not farther apart than the rounding of their coordinates. One more
-    O(n log n).
+    at edges within a width of its ends (three, if across) that are ends of its neighbours. Of
+    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by
+    bit. It is on the edge but for rounding, so that lines are covered by the areas of both.
+    ``"report"`` adds a ``Joint`` for each shared edge, with the reason where there is none. Edges
+    are shared where boundaries are not farther apart than their coordinates are rounded.
 
     Examples
     --------
@@ -361,13 +363,15 @@ def find_between(
     find: Finder,
     joints: "list[tuple[End, End] | None] | None",
     i: int,
-    *area: Any,
+    rings: Rings,
+    height: "Floats | None",
+    guide: Any,
+    scale: Scale,
 ) -> Found:
     """Line of area i between the ends it is to have; where there is none, strike these out."""
-    if joints is None or joints[i] is None:
-        return find(*area)
-    try:
-        return find(*area, joints[i])
-    except MidribError:
-        joints[i] = None
-        return find(*area)
+    if joints is not None and joints[i] is not None:
+        try:
+            return find(rings, height, guide, scale, joints[i])
+        except MidribError:
+            joints[i] = None
+    return find(rings, height, guide, scale)

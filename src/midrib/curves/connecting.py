@@ -1,10 +1,10 @@
 """Lines of neighbouring areas that meet: joints in the middles of shared edges.
 
- end to end          side            An edge is a joint if it is at an end of one of its two areas
- +-----+-----+      +---------+      at least. Both end their lines in its middle, or one does, and
- |--i--o--j--|      |----o-j--|      goes on from there to the other's line by the shortest path.
- +-----+-----+      +---+|+---+      An edge along both areas, a road beside its verge, is none.
-                        |i|
+end to end          side            An edge is a joint if it is at an end of one of its two areas
++-----+-----+      +---------+      at least. Both end their lines in its middle, or one does, and
+|--i--o--j--|      |----o-j--|      goes on from there to the other's line by the shortest path.
++-----+-----+      +---+|+---+      An edge along both areas, a road beside its verge, is none.
+                       |i|
 """
 
 from dataclasses import dataclass, field
@@ -29,7 +29,7 @@ __all__ = ["Joined", "Kind", "Plan", "make_joints", "plan_joints"]
 
 Areas = NDArray[np.object_]
 Lines = list[LineString | None]
-Chains = list[Chain | None]
+Chains = dict[int, Chain]
 Kind = Literal["end to end", "side", "none"]
 PLANE: Scale = (1.0, 1.0)
 HALF = 0.5
@@ -110,9 +110,7 @@ def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
     return Plan(shared.areas, ends, contacts, outlines)
 
 
-def agreed_pairs(
-    outlines: dict[int, Outline], edges: dict[int, list[Contact]]
-) -> dict[int, Pair]:
+def agreed_pairs(outlines: dict[int, Outline], edges: dict[int, list[Contact]]) -> dict[int, Pair]:
     """Choose edges for the ends of all areas, in rounds; see ``plan_joints``."""
     candidates = {i: at_ends(i, outline, edges[i]) for i, outline in outlines.items()}
     pairs: dict[int, Pair] = {}
@@ -159,7 +157,9 @@ def outlines_of(areas: Areas, which: list[int], *, geographic: bool) -> dict[int
     return outlines
 
 
-def edges_of_areas(contacts: list[Contact], outlines: dict[int, Outline]) -> dict[int, list[Contact]]:
+def edges_of_areas(
+    contacts: list[Contact], outlines: dict[int, Outline]
+) -> dict[int, list[Contact]]:
     """Contacts on the shell of each area."""
     edges: dict[int, list[Contact]] = {i: [] for i in outlines}
     for contact in contacts:
@@ -242,7 +242,7 @@ def free_end(i: int, outline: Outline, number: int, contact: Contact) -> End:
 
 
 def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
-    """Ends of an area at the edges chosen: each edge is a cap, or a point if caps use up a bank."""
+    """Place the ends of an area: each edge is a cap, or a point if caps would use up a bank."""
     if pair == (None, None):
         return None
     caps, middles = [], []
@@ -281,7 +281,7 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
     lines : with joints as vertices, bit by bit the same in both
     joined : one row for each shared edge
     """
-    chains = [None if line is None else Chain.of(line) for line in lines]
+    chains = {i: Chain.of(line) for i, line in enumerate(lines) if line is not None}
     for contact in plan.contacts:
         contact.chosen = {i: end for i, end in contact.chosen.items() if plan.ends[i] is not None}
     joined: list[Joined] = []
@@ -298,12 +298,12 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
             (i,) = contact.chosen
             sides.append((contact, i, contact.beyond(i)))
     joined.extend(join_side(*side, plan.outlines, chains) for side in sides)
-    return [None if chain is None else chain.line() for chain in chains], joined
+    return [chains[i].line() if i in chains else None for i in range(len(lines))], joined
 
 
 def obstacle(contact: Contact, chains: Chains) -> str:
     """Say why two lines do not meet at a shared edge, or nothing."""
-    there = [i < len(chains) and chains[i] is not None for i in contact.edge.areas]
+    there = [i in chains for i in contact.edge.areas]
     if not all(there):
         return "one of the areas has no line" if any(there) else "neither area has a line"
     if contact.chosen:

@@ -1,10 +1,10 @@
 """Lines led to their joints: exact end points, ways on into a neighbour, vertices where these end.
 
- main line   ----o----------t---------o----     t   the point of it nearest to m
-                            |
-             .........edge..m..............     m   middle of the shared edge, in both lines
-                            |
-                            |  side line
+main line   ----o----------t---------o----     t   the point of it nearest to m
+                           |
+            .........edge..m..............     m   middle of the shared edge, in both lines
+                           |
+                           |  side line
 """
 
 from dataclasses import dataclass, field
@@ -73,7 +73,8 @@ class Chain:
         """Make the end of a way a vertex; return it, with Z if there is one."""
         a, b = self.points[way.segment], self.points[way.segment + 1]
         if way.share in (0.0, 1.0):
-            return b if way.share else a
+            vertex: Floats = b if way.share else a
+            return vertex
         point: Floats = a + way.share * (b - a)
         point[:2] = way.points[-1]
         self.passed.append((way.segment, way.share, point))
@@ -158,7 +159,7 @@ def shortest_path(outline: Outline, start: Floats, goal: Floats) -> Floats | Non
     """Shortest path inside an area from a point of its boundary to a point of its inside."""
     mesh = outline.boundary.mesh
     sides = np.flatnonzero(mesh.twin < 0)
-    corners = np.stack([mesh.tri[sides], mesh.tri[[next_side(e) for e in sides]]], axis=1)
+    corners = np.stack([mesh.tri[sides], mesh.tri[[next_side(int(e)) for e in sides]]], axis=1)
     a, b = (np.column_stack([mesh.x[v], mesh.y[v]]) for v in corners.T)
     along, to = b - a, start - a
     share = np.clip((to * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)

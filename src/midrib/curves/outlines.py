@@ -1,11 +1,11 @@
 """Which shared edges are at an end of an area, and which of them its line should join.
 
-            gap                     An *end* is the piece of the shell that the area's shape
-      c---------+....p              proposes: a cap p q, or a point.
-  ----'               |             An edge is *at* an end if it covers at least half of the cap,
-                      | end         or is at least half on it; at a tip or round end, if it is
-  --------------------q             within half a width of it. The area must reach at least half
-                                    as far from it as it is long, else it runs along the area.
+          gap                     An *end* is the piece of the shell that the area's shape
+    c---------+....p              proposes: a cap p q, or a point.
+----'               |             An edge is *at* an end if it covers at least half of the cap,
+                    | end         or is at least half on it; at a tip or round end, if it is
+--------------------q             within half a width of it. The area must reach at least half
+                                  as far from it as it is long, else it runs along the area.
 """
 
 from dataclasses import dataclass
@@ -22,7 +22,8 @@ __all__ = ["Outline", "Stretch"]
 
 HALF = 0.5
 # Widths from an end within which an edge may take it over if it is an end of the neighbour's.
-NEAR, NEAR_IF_WIDE = 1.0, 2.0
+NEAR, NEAR_IF_ACROSS = 1.0, 3.0
+LEAST_TURN = np.pi / 2.0
 
 
 @dataclass(frozen=True)
@@ -96,10 +97,23 @@ class Outline:
         return float(np.abs(points @ (-y, x)).max() / np.hypot(x, y))
 
     def is_near(self, edge: Stretch, end: End) -> bool:
-        """Whether an edge is within a width of an end; if it is a wide one, within two."""
-        width = max(self.length(end), self.width)
-        reach = NEAR_IF_WIDE if edge.length >= HALF * self.width else NEAR
-        return self.gap(edge, end) <= reach * width
+        """Whether an edge is near an end: within a width, or three if it is across the area."""
+        gap = self.gap(edge, end)
+        if gap <= NEAR * max(self.length(end), self.width):
+            return True
+        return gap <= NEAR_IF_ACROSS * self.width and self.is_across(edge)
+
+    def is_across(self, edge: Stretch) -> bool:
+        """Whether the shell turns by 90 degrees or more at the two ends of an edge.
+
+        By 180 at a cap, not at all at an edge in the middle of a bank. The banks' directions are
+        taken over half the edge's length.
+        """
+        start, stop, arm = edge.start, edge.start + edge.length, edge.length * HALF
+        at = [self.coordinates(self.at(s)) for s in (start - arm, start, stop, stop + arm)]
+        x, y = (np.diff(at, axis=0) * self.scale).T
+        cross, dot = x[:-1] * y[1:] - y[:-1] * x[1:], x[:-1] * x[1:] + y[:-1] * y[1:]
+        return bool(np.arctan2(cross, dot).sum() >= LEAST_TURN)
 
     def common(self, edge: Stretch, end: End) -> float:
         """Length of the shell that an edge and an end have in common."""
@@ -138,7 +152,8 @@ class Outline:
     def coordinates(self, end: End) -> Floats:
         """Coordinates of the place of an end."""
         a, b = self.points[end.place], self.points[(end.place + 1) % len(self.points)]
-        return a + end.share * (b - a)
+        point: Floats = a + end.share * (b - a)
+        return point
 
     def leaves_two_banks(self, first: End, second: End) -> bool:
         """Whether something of the shell is left on both sides between two ends."""
