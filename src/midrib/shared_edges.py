@@ -41,7 +41,6 @@ class SharedEdges(NamedTuple):
 
     edges: list[SharedEdge]
     areas: NDArray[np.object_]
-    near: float
 
 
 class Nodes(NamedTuple):
@@ -66,19 +65,29 @@ def find_shared_edges(areas: NDArray[np.object_]) -> SharedEdges:
     O(n log n) for n vertices, for areas that do not lie on each other in heaps. The edges are in
     an order of their own places, not of the areas.
     """
-    rings, area_of_ring = shapely.get_rings(areas, return_index=True)
-    coordinates = shapely.get_coordinates(rings) + 0.0  # so that there is one zero only
-    count = shapely.get_num_coordinates(rings)
-    ring = np.repeat(np.arange(rings.size), count)
-    if not coordinates.size:
-        return SharedEdges([], areas, 0.0)
+    if not areas.size:
+        return SharedEdges([], areas)
     size = float(np.median(np.sqrt(shapely.area(areas))))
-    near = rounding_of(coordinates, size)
+    near = rounding_of(shapely.get_coordinates(areas), size)
+    close = with_close_bounds(areas, near)
+    rings, owner = shapely.get_rings(areas[close], return_index=True)
+    if not rings.size:
+        return SharedEdges([], areas)
+    coordinates = shapely.get_coordinates(rings) + 0.0  # so that there is one zero only
+    ring = np.repeat(np.arange(rings.size), shapely.get_num_coordinates(rings))
     points, vertex = np.unique(coordinates, axis=0, return_inverse=True)
     vertex = merged(points, near)[vertex.ravel()]
-    nodes = with_others(coordinates, ring, area_of_ring, points, vertex, near)
+    nodes = with_others(coordinates, ring, close[owner], points, vertex, near)
     edges, needed = chains(nodes, points, coordinates)
-    return SharedEdges(edges, with_vertices(areas, area_of_ring[ring], nodes, needed, points), near)
+    return SharedEdges(edges, with_vertices(areas, close[owner][ring], nodes, needed, points))
+
+
+def with_close_bounds(areas: NDArray[np.object_], near: float) -> Ints:
+    """Return the areas whose bounds come near to those of another one."""
+    low_x, low_y, high_x, high_y = shapely.bounds(areas).T
+    boxes = shapely.box(low_x - near, low_y - near, high_x + near, high_y + near)
+    one, two = shapely.STRtree(boxes).query(boxes)
+    return np.unique(one[one != two])
 
 
 def rounding_of(coordinates: Floats, size: float) -> float:

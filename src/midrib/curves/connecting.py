@@ -15,7 +15,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import LineString
 
-from midrib.curves.meeting import Chain, way_to_chain
+from midrib.curves.meeting import ROUNDING, Chain, way_to_chain
 from midrib.curves.outlines import Outline, Stretch
 from midrib.ends import End
 from midrib.errors import MidribError
@@ -35,7 +35,6 @@ PLANE: Scale = (1.0, 1.0)
 HALF = 0.5
 OFFERED = HALF**HALF  # what an edge counts that is only a neighbour's end: two of them half
 ROUNDS = 64  # of choosing: a run of so many short pieces is joined from either side
-ROUNDING = 2.0**-46  # of the coordinates: so near, two points are one but for rounding
 
 
 class Joined(NamedTuple):
@@ -298,7 +297,22 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
             (i,) = contact.chosen
             sides.append((contact, i, contact.beyond(i)))
     joined.extend(join_side(*side, plan.outlines, chains) for side in sides)
-    return [chains[i].line() if i in chains else None for i in range(len(lines))], joined
+    return finished(lines, chains, joined)
+
+
+def finished(lines: Lines, chains: Chains, joined: list[Joined]) -> tuple[Lines, list[Joined]]:
+    """Return the joined lines, those that would cross themselves as they were, and the rows."""
+    done = [chains[i].line() if i in chains else None for i in range(len(lines))]
+    crossed = {i for i, line in enumerate(done) if line is not None and not line.is_simple}
+    for i in crossed:
+        done[i] = lines[i]
+    rows = [
+        row._replace(kind="none", reason="a line would cross itself there")
+        if row.kind != "none" and crossed.intersection(row.areas)
+        else row
+        for row in joined
+    ]
+    return done, rows
 
 
 def obstacle(contact: Contact, chains: Chains) -> str:
@@ -349,8 +363,13 @@ def join_side(
     """Lead the line of area i on to the line of area j."""
     side, main = chains[i], chains[j]
     way = way_to_chain(outlines[j], contact.middle, main.points[:, :2])
-    if way is None:
-        return Joined((i, j), "none", contact.middle, "no way leads from it to the other line")
-    point = main.pass_through(way)
-    side.go_on(contact.chosen[i], way, point)
-    return Joined((i, j), "side", point[:2], "")
+    reason = "no way leads from it to the other line"
+    if way is not None:
+        end, point = contact.chosen[i], main.point_at(way)
+        side.go_on(end, way, point)
+        if side.line().is_simple:
+            main.pass_through(way, point)
+            return Joined((i, j), "side", point[:2], "")
+        side.ways.pop(end, None)
+        reason = "on the way to the other line it would cross itself"
+    return Joined((i, j), "none", contact.middle, reason)

@@ -19,8 +19,9 @@ from midrib.kernels.paths import Beads, join_points
 from midrib.kernels.triangulation import next_side
 from midrib.types import Floats
 
-__all__ = ["Chain", "Way", "way_to_chain"]
+__all__ = ["ROUNDING", "Chain", "Way", "way_to_chain"]
 
+ROUNDING = 2.0**-46  # of the coordinates: so near, two points are one but for rounding
 SAME_VERTEX = 2.0**-4  # of the way there: so near to a vertex of the main line, the way ends in it
 
 SHARP = np.cos(np.radians(40.0))  # a hook turns by more
@@ -29,7 +30,7 @@ SHARP = np.cos(np.radians(40.0))  # a hook turns by more
 class Way(NamedTuple):
     """A way from a point of an area's boundary to a line inside it."""
 
-    points: Floats  # (k, 2), the first one the point itself
+    points: Floats  # (k, 2), the first one the point itself; only that if the line passes it
     segment: int  # of the line, where the way ends
     share: float  # of the segment
 
@@ -69,19 +70,26 @@ class Chain:
             points = np.delete(points, np.arange(1, k), axis=0)
             self.points = points if end == 0 else points[::-1]
 
-    def pass_through(self, way: Way) -> Floats:
-        """Make the end of a way a vertex; return it, with Z if there is one."""
+    def point_at(self, way: Way) -> Floats:
+        """Return the point in which a way ends, with Z if there is one."""
         a, b = self.points[way.segment], self.points[way.segment + 1]
         if way.share in (0.0, 1.0):
             vertex: Floats = b if way.share else a
             return vertex
         point: Floats = a + way.share * (b - a)
         point[:2] = way.points[-1]
-        self.passed.append((way.segment, way.share, point))
         return point
+
+    def pass_through(self, way: Way, point: Floats) -> None:
+        """Make the point in which a way ends a vertex."""
+        if way.share not in (0.0, 1.0):
+            self.passed.append((way.segment, way.share, point))
 
     def go_on(self, end: int, way: Way, last: Floats) -> None:
         """Go on from an end by a way to the point ``last``, rising evenly."""
+        if len(way.points) == 1:
+            self.put_end(end, last[:2])
+            return
         points = way.points[1:].copy()
         points[-1] = last[:2]
         if self.points.shape[1] > 2:
@@ -119,6 +127,8 @@ def way_to_chain(outline: Outline, start: Floats, points: Floats) -> Way | None:
     """
     segment, share = nearest_on(points, start, np.array(outline.scale))
     goal = points[segment] + share * (points[segment + 1] - points[segment])
+    if np.abs(goal - start).max() <= ROUNDING * np.abs(start).max():
+        return Way(start[None], segment, share)
     to_goal = np.hypot(*((goal - start) * outline.scale))
     for corner in (0.0, 1.0):
         vertex = points[segment + int(corner)]
