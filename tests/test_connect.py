@@ -278,18 +278,37 @@ def test_options_that_place_ends_exclude_it(options: dict[str, Any]) -> None:
 def test_rounding_is_the_step_of_rounded_coordinates() -> None:
     random = np.random.default_rng(3)
     rounded = np.round(random.uniform(4e5, 4.1e5, (60, 2)), 3)
-    assert rounding_of(rounded, 50.0) == pytest.approx(0.001, rel=1e-6)
+    assert rounding_of(rounded, 50.0) == pytest.approx(0.00075, rel=1e-6)
     assert rounding_of(rounded * 2.0**80, 50.0 * 2.0**80) == rounding_of(rounded, 50.0) * 2.0**80
     assert rounding_of(random.uniform(4e5, 4.1e5, (60, 2)), 50.0) < 1e-7
     assert rounding_of(np.array([[0.0, 0.0], [10.0, 20.0]]), 10.0) < 1e-11
 
 
+def real_roads() -> Areas:
+    """The road areas of a layer of the Dutch base map."""
+    geopandas = pytest.importorskip("geopandas")
+    frame = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="vlak")
+    roads: Areas = frame.geometry[frame.file == "wegdeel"].to_numpy()
+    return roads
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
+def test_order_and_scale_of_real_roads_do_not_matter() -> None:
+    areas = real_roads()
+    lines, _ = connected(areas)
+    order = np.random.default_rng(1).permutation(areas.size)
+    shuffled, _ = connected(areas[order])
+    for line, position in zip(shuffled, order, strict=True):
+        assert shapely.normalize(line) == shapely.normalize(lines[position])
+    larger, _ = connected(shapely.transform(areas, lambda p: p * 2.0**40))
+    assert (larger == shapely.transform(lines, lambda p: p * 2.0**40)).all()
+
+
 @pytest.mark.shared
 @pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
 def test_shared_edges_of_real_roads_are_joints_or_listed() -> None:
-    geopandas = pytest.importorskip("geopandas")
-    frame = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="vlak")
-    areas = frame.geometry[frame.file == "wegdeel"].to_numpy()
+    areas = real_roads()
     lines, joints = connected(areas)
     listed = {frozenset((joint.index, joint.other)) for joint in joints}
     for i, j in pairs_that_touch(areas):

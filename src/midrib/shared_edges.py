@@ -7,8 +7,8 @@
 
 *Near*: a vertex counts as on a segment, and two vertices as one, if they are not farther apart than
 the rounding of the coordinates. Coordinates that are all multiples of one step (millimetres in a
-file with three decimals) are rounded by up to 0.71 steps in the plane: near is one step. A step is
-believed if it is small beside the areas, so that round numbers are not taken for rounded ones;
+file with three decimals) are rounded by up to 0.71 steps in the plane: near is 0.75 steps. A step
+is believed if it is small beside the areas, so that round numbers are not taken for rounded ones;
 otherwise near is what some computing in double precision leaves behind.
 """
 
@@ -24,6 +24,7 @@ __all__ = ["SharedEdge", "SharedEdges", "find_shared_edges", "rounding_of"]
 
 COMPUTED = 2.0**-46  # of the largest coordinate: 64 units in its last place
 SMALL_STEP = 2.0**-10  # of the median size of an area
+ROUNDED = 0.75  # of a step, a little more than half the diagonal of its square
 SURE = 0.25  # of a step: how well multiples of it are told from what lies between
 
 
@@ -79,7 +80,7 @@ def find_shared_edges(areas: NDArray[np.object_]) -> SharedEdges:
     vertex = merged(points, near)[vertex.ravel()]
     nodes = with_others(coordinates, ring, close[owner], points, vertex, near)
     edges, needed = chains(nodes, points, coordinates)
-    return SharedEdges(edges, with_vertices(areas, close[owner][ring], nodes, needed, points))
+    return SharedEdges(edges, with_vertices(areas, close[owner][ring], nodes, needed))
 
 
 def with_close_bounds(areas: NDArray[np.object_], near: float) -> Ints:
@@ -94,7 +95,7 @@ def rounding_of(coordinates: Floats, size: float) -> float:
     """How near is near, for areas of a median size; see the head of this file."""
     noise = COMPUTED * float(np.abs(coordinates).max(initial=0.0))
     step = max(step_of(coordinates[:, 0], noise), step_of(coordinates[:, 1], noise))
-    return max(step, noise) if step <= SMALL_STEP * size else noise
+    return max(ROUNDED * step, noise) if step <= SMALL_STEP * size else noise
 
 
 def step_of(values: Floats, noise: float) -> float:
@@ -138,30 +139,44 @@ def with_others(
     coordinates: Floats, ring: Ints, area_of_ring: Ints, points: Floats, vertex: Ints, near: float
 ) -> Nodes:
     """Put the vertices of others into the boundaries; drop repeats."""
-    start = np.flatnonzero(ring[:-1] == ring[1:])  # rows that a segment leaves
+    moves = (coordinates[:-1] != coordinates[1:]).any(axis=1)
+    start = np.flatnonzero((ring[:-1] == ring[1:]) & moves)  # rows that a segment leaves
     a, b = coordinates[start], coordinates[start + 1]
     tree = shapely.STRtree(shapely.linestrings(np.stack([a, b], axis=1)))
     used = np.unique(vertex)
     p, s = tree.query(shapely.points(points[used]), predicate="dwithin", distance=near)
     p = used[p]
-    inside = (vertex[start[s]] != p) & (vertex[start[s] + 1] != p)
-    p, s = p[inside], s[inside]
     along = b[s] - a[s]
     share = ((points[p] - a[s]) * along).sum(axis=1) / (along * along).sum(axis=1)
+    is_end = (vertex[start[s]] == p) | (vertex[start[s] + 1] == p)
+    inside = ~is_end & (share > 0.0) & (share < 1.0)
+    p, s, share = p[inside], s[inside], share[inside]
     row = np.concatenate([start, start[s]])
     share = np.concatenate([np.zeros(start.size), share])
     nodes = np.concatenate([vertex[start], p])
     order = np.lexsort((share, row))
     row, share, nodes = row[order], share[order], nodes[order]
-    of_ring = ring[row]
-    distinct = np.ones(row.size, dtype=np.bool_)
-    distinct[1:] = (nodes[1:] != nodes[:-1]) | (of_ring[1:] != of_ring[:-1])
-    row, share, nodes, of_ring = row[distinct], share[distinct], nodes[distinct], of_ring[distinct]
-    following = np.arange(1, row.size + 1)
-    last = np.append(of_ring[1:] != of_ring[:-1], True)
-    first = np.append(0, np.flatnonzero(last)[:-1] + 1)
-    following[last] = first
-    return Nodes(nodes, row, share, area_of_ring[of_ring], following)
+    kept, following = without_spikes(nodes, ring[row])
+    row = row[kept]
+    return Nodes(nodes[kept], row, share[kept], area_of_ring[ring[row]], following)
+
+
+def without_spikes(vertex: Ints, ring: Ints) -> tuple[Ints, Ints]:
+    """Return the nodes but for repeats and for spikes a, b, a; and the node after each of them.
+
+    What is left of a notch as narrow as the rounding, once its sides have each other's vertices.
+    """
+    kept = np.arange(vertex.size)
+    while True:
+        v, r = vertex[kept], ring[kept]
+        last = np.append(r[1:] != r[:-1], True)
+        first = np.roll(last, 1)
+        following, before = np.arange(1, r.size + 1), np.arange(-1, r.size - 1)
+        following[last], before[first] = np.flatnonzero(first), np.flatnonzero(last)
+        drop = (v == v[before]) | (v[before] == v[following])
+        if not drop.any():
+            return kept, following
+        kept = kept[~drop]
 
 
 def chains(nodes: Nodes, points: Floats, coordinates: Floats) -> tuple[list[SharedEdge], Bools]:
@@ -231,19 +246,30 @@ def edge_of(
     ends = [walk[0], walk[-1]]
     is_closed = bool(nodes.vertex[ends[0]] == nodes.vertex[ends[1]])
     corners = [
-        np.array(
-            [points[nodes.vertex[n]] if nodes.share[n] else coordinates[nodes.row[n]] for n in e]
-        )
-        for e in (ends, ends_beside)
+        places(nodes.row[both], nodes.share[both], coordinates) for both in (ends, ends_beside)
     ]
     pair = int(nodes.area[ends[0]]), int(nodes.area[ends_beside[0]])
+    if is_closed:
+        chain = np.roll(chain[:-1], -int(np.lexsort(chain[:-1].T[::-1])[0]), axis=0)
+        chain = np.vstack([chain, chain[:1]])
+        if tuple(chain[1]) > tuple(chain[-2]):
+            chain = chain[::-1]
     if tuple(chain[0]) > tuple(chain[-1]):
         chain, corners = chain[::-1], [c[::-1] for c in corners]
     return SharedEdge(pair, chain, (corners[0], corners[1]), is_closed)
 
 
+def places(at: Ints, share: Floats, rows: Floats) -> Floats:
+    """Coordinates of nodes on their own boundary: a vertex, or the foot of another's vertex."""
+    place: Floats = rows[at].copy()
+    inside = share > 0.0
+    at = at[inside]
+    place[inside] += share[inside][:, None] * (rows[at + 1] - rows[at])
+    return place
+
+
 def with_vertices(
-    areas: NDArray[np.object_], area_of_row: Ints, nodes: Nodes, needed: Bools, points: Floats
+    areas: NDArray[np.object_], area_of_row: Ints, nodes: Nodes, needed: Bools
 ) -> NDArray[np.object_]:
     """Areas with the needed nodes as vertices; a Z is interpolated."""
     changed = areas.copy()
@@ -255,8 +281,7 @@ def with_vertices(
             rows = shapely.get_coordinates(ring, include_z=areas[i].has_z)
             here = mine[(nodes.row[mine] >= first) & (nodes.row[mine] < first + len(rows))]
             at = nodes.row[here] - first
-            new = rows[at] + nodes.share[here, None] * (rows[at + 1] - rows[at])
-            new[:, :2] = points[nodes.vertex[here]]
+            new = places(at, nodes.share[here], rows)
             rings.append(np.insert(rows, at + 1, new, axis=0))
             first += len(rows)
         area = shapely.Polygon(rings[0], rings[1:])

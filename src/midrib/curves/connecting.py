@@ -34,7 +34,6 @@ Kind = Literal["end to end", "side", "none"]
 PLANE: Scale = (1.0, 1.0)
 HALF = 0.5
 OFFERED = HALF**HALF  # what an edge counts that is only a neighbour's end: two of them half
-ROUNDS = 64  # of choosing: a run of so many short pieces is joined from either side
 
 
 class Joined(NamedTuple):
@@ -53,6 +52,7 @@ class Contact:
     edge: SharedEdge
     length: float
     middle: Floats
+    is_open: bool = False  # whether the middle lies in a gap, as narrow as the rounding
     stretch: dict[int, Stretch] = field(default_factory=dict)  # by area, where on its shell
     at_end: set[int] = field(default_factory=set)  # areas at whose ends it is
     chosen: dict[int, int] = field(default_factory=dict)  # area to the end of its line, 0 or 1
@@ -91,10 +91,11 @@ def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
     its neighbours. 2. Each area looks again, now also at edges that are offered within a width of
     its ends. An end that is left over where the area is about as long as wide moves to the other
     side from the edge that it does take, and may meet one there. So do short pieces, whose shape
-    proposes the wrong two sides. 3. Again, until no area changes its mind.
+    proposes the wrong two sides. 3. Again, until nothing new is offered.
     """
     shared = find_shared_edges(areas)
     contacts = [contact_of(edge, geographic=geographic) for edge in shared.edges]
+    mark_gaps(contacts, areas)
     touched = sorted({i for edge in shared.edges for i in edge.areas if i < n_lines})
     outlines = outlines_of(shared.areas, touched, geographic=geographic)
     edges = edges_of_areas(contacts, outlines)
@@ -113,20 +114,16 @@ def agreed_pairs(outlines: dict[int, Outline], edges: dict[int, list[Contact]]) 
     """Choose edges for the ends of all areas, in rounds; see ``plan_joints``."""
     candidates = {i: at_ends(i, outline, edges[i]) for i, outline in outlines.items()}
     pairs: dict[int, Pair] = {}
-    heard: dict[int, list[Contact] | None] = dict.fromkeys(outlines)
-    takes: set[tuple[Contact, int]] = set()
-    for _ in range(ROUNDS):
-        before = takes
-        for i, outline in outlines.items():
-            offered = [c for c in edges[i] if (c, c.beyond(i)) in before]
-            if offered == heard[i]:
-                continue
-            heard[i] = offered
-            pair = widest_way(i, outline, with_near(outline, i, candidates[i], offered))
-            pairs[i] = with_opposite(i, outline, pair, edges[i])
-        takes = {(contact, i) for i, pair in pairs.items() for contact in pair if contact}
-        if takes == before:
-            break
+    offers: set[tuple[Contact, int]] = set()  # an edge and the area it is an end of
+    asked = set(outlines)
+    while asked:  # offers are never taken back, so this ends
+        for i in asked:
+            offered = [c for c in edges[i] if (c, c.beyond(i)) in offers]
+            pair = widest_way(i, outlines[i], with_near(outlines[i], i, candidates[i], offered))
+            pairs[i] = with_opposite(i, outlines[i], pair, edges[i])
+        new = {(c, i) for i in asked for c in pairs[i] if c is not None} - offers
+        offers |= new
+        asked = {c.beyond(i) for c, i in new} & outlines.keys()
     return pairs
 
 
@@ -139,6 +136,18 @@ def contact_of(edge: SharedEdge, *, geographic: bool) -> Contact:
     share = (arc[-1] / 2.0 - arc[k]) / (arc[k + 1] - arc[k])
     middle = edge.points[k] + share * (edge.points[k + 1] - edge.points[k])
     return Contact(edge, float(arc[-1]), middle)
+
+
+def mark_gaps(contacts: list[Contact], areas: Areas) -> None:
+    """Mark edges with a middle that is not in both areas.
+
+    It may be so where only one of them has a vertex on it: rounded, that is off the other's edge.
+    """
+    pairs = np.array([contact.edge.areas for contact in contacts], dtype=np.intp).reshape(-1, 2)
+    middles = np.array([contact.middle for contact in contacts]).reshape(-1, 2)
+    off = shapely.distance(areas[pairs], shapely.points(middles)[:, None]).max(axis=1)
+    for k in np.flatnonzero(off > ROUNDING * np.abs(middles).max(axis=1)):
+        contacts[k].is_open = True
 
 
 def outlines_of(areas: Areas, which: list[int], *, geographic: bool) -> dict[int, Outline]:
@@ -163,7 +172,7 @@ def edges_of_areas(
     edges: dict[int, list[Contact]] = {i: [] for i in outlines}
     for contact in contacts:
         for i, corners in zip(contact.edge.areas, contact.edge.corners, strict=True):
-            if i not in outlines or contact.edge.is_closed:
+            if i not in outlines or contact.edge.is_closed or contact.is_open:
                 continue
             on_shell = outlines[i].stretch(corners, contact.length)
             if on_shell is not None:
@@ -286,11 +295,12 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
     joined: list[Joined] = []
     sides: list[tuple[Contact, int, int]] = []
     for contact in plan.contacts:
-        reason = obstacle(contact, chains) or gap_at(contact, plan.areas, chains)
+        unhook(contact, plan.areas, chains)
+        reason = obstacle(contact, chains)
         if reason:
             joined.append(Joined(contact.edge.areas, "none", contact.middle, reason))
             continue
-        meet(contact, plan.areas, chains)
+        meet(contact, chains)
         if len(contact.chosen) == 2:
             joined.append(Joined(contact.edge.areas, "end to end", contact.middle, ""))
         else:
@@ -322,6 +332,8 @@ def obstacle(contact: Contact, chains: Chains) -> str:
         return "one of the areas has no line" if any(there) else "neither area has a line"
     if contact.chosen:
         return ""
+    if contact.is_open:
+        return "a gap as wide as the rounding of the coordinates is between the areas"
     if contact.edge.is_closed:
         return "one area lies inside the other"
     if contact.at_end:
@@ -329,29 +341,18 @@ def obstacle(contact: Contact, chains: Chains) -> str:
     return "it is at an end of neither area"
 
 
-def gap_at(contact: Contact, areas: Areas, chains: Chains) -> str:
-    """Say so if lines that end in the middle of an edge would leave their areas.
-
-    They may where only one of the areas has a vertex on it: rounded, that is off the other's edge.
-    """
+def unhook(contact: Contact, areas: Areas, chains: Chains) -> None:
+    """Straighten lines on their last way to a shared edge."""
+    reach = float(np.abs(contact.edge.points - contact.middle).max())
     for i, end in contact.chosen.items():
-        points = chains[i].points
-        last, before = points[-end, :2], points[1 if end == 0 else -2, :2]
-        if np.abs(last - contact.middle).max() <= ROUNDING * np.abs(contact.middle).max():
-            continue
-        both = shapely.union_all(areas[list(contact.edge.areas)])
-        if not both.covers(LineString([before, contact.middle])):
-            return "a gap as wide as the rounding of the coordinates is between the areas"
-    return ""
+        if i in chains:
+            chains[i].unhook(end, areas[i], reach)
 
 
-def meet(contact: Contact, areas: Areas, chains: Chains) -> None:
-    """Let lines end in exactly the middle of a shared edge, at their mean height, without hooks."""
+def meet(contact: Contact, chains: Chains) -> None:
+    """Let lines end in exactly the middle of a shared edge, at their mean height."""
     ends = [(chains[i], end) for i, end in contact.chosen.items()]
     height = [chain.points[-end, 2] for chain, end in ends if chain.points.shape[1] > 2]
-    reach = np.abs(contact.edge.points - contact.middle).max()
-    for i, end in contact.chosen.items():
-        chains[i].unhook(end, areas[i], reach)
     for chain, end in ends:
         has_z = chain.points.shape[1] > 2
         chain.put_end(end, np.append(contact.middle, np.mean(height)) if has_z else contact.middle)

@@ -16,7 +16,6 @@ from shapely import LineString, Polygon
 
 from midrib.curves.outlines import Outline
 from midrib.kernels.paths import Beads, join_points
-from midrib.kernels.triangulation import next_side
 from midrib.types import Floats
 
 __all__ = ["ROUNDING", "Chain", "Way", "way_to_chain"]
@@ -169,7 +168,8 @@ def shortest_path(outline: Outline, start: Floats, goal: Floats) -> Floats | Non
     """Shortest path inside an area from a point of its boundary to a point of its inside."""
     mesh = outline.boundary.mesh
     sides = np.flatnonzero(mesh.twin < 0)
-    corners = np.stack([mesh.tri[sides], mesh.tri[[next_side(int(e)) for e in sides]]], axis=1)
+    after = sides - sides % 3 + (sides + 1) % 3  # next_side of each
+    corners = np.stack([mesh.tri[sides], mesh.tri[after]], axis=1)
     a, b = (np.column_stack([mesh.x[v], mesh.y[v]]) for v in corners.T)
     along, to = b - a, start - a
     share = np.clip((to * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
