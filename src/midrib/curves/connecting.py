@@ -88,8 +88,8 @@ def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
     Notes
     -----
     1. Each area takes the shared edges at the ends that its shape proposes, and so offers them to
-    its neighbours. 2. Each area looks again, now also at edges that are offered within a width of
-    its ends. An end that is left over where the area is about as long as wide moves to the other
+    its neighbours. 2. Each area looks again, now also at edges that are offered near its ends
+    (``Outline.is_near``). An end that is left over where the area is about as long as wide moves to the other
     side from the edge that it does take, and may meet one there. So do short pieces, whose shape
     proposes the wrong two sides. 3. Again, until nothing new is offered.
     """
