@@ -2,7 +2,7 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-.PHONY: demo test lint bench dev lock clean
+.PHONY: demo test lint bench quality dev lock clean
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -m venv --clear $(VENV)
@@ -27,6 +27,11 @@ bench: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-bench.txt
 	$(BIN)/python benchmarks/speed.py
 	$(BIN)/python benchmarks/scoreboard.py
+
+quality: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-bench.txt
+	$(BIN)/python benchmarks/scoreboard.py
+	$(BIN)/python benchmarks/ribbons.py
 
 dev: $(VENV)/ready
 	$(BIN)/pre-commit install

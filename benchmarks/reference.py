@@ -7,7 +7,8 @@ r"""The line that others are held against: the trunk of a densely sampled medial
     o-----------------------------o
 
 The Voronoi diagram of points on the boundary keeps, inside the area, near the medial axis. From
-an expected end the trunk starts straight to the axis point that has this end nearest.
+an expected end the trunk starts straight to the axis point that has this end nearest; from a tip
+that is narrower than the samples are apart, to the nearest axis point.
 """
 
 from dataclasses import dataclass
@@ -16,7 +17,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
+from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import Voronoi
 from shapely import LineString
 from shapely.geometry.base import BaseGeometry
@@ -49,6 +50,9 @@ class Axis:
         size = len(self.nodes)
         graph = csr_array((cost, (self.links[:, 0], self.links[:, 1])), shape=(size, size))
         start, stop = self.tips
+        if min(start, stop) < 0:
+            msg = f"the sampled medial axis of {self.case.name} does not reach its ends"
+            raise RuntimeError(msg)
         distance, before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)
         if not np.isfinite(distance[stop]):
             msg = f"the sampled medial axis of {self.case.name} is in pieces"
@@ -61,9 +65,9 @@ class Axis:
         return trunk.simplify(STRAIGHT * self.case.width)
 
 
-def axis_of(case: Case) -> Axis:
+def axis_of(case: Case, samples_per_width: int = SAMPLES_PER_WIDTH) -> Axis:
     """Sample the boundary of an area and keep what of the Voronoi diagram is inside."""
-    dense = shapely.segmentize(case.area, case.width / SAMPLES_PER_WIDTH)
+    dense = shapely.segmentize(case.area, case.width / samples_per_width)
     rings = [np.asarray(ring.coords)[:-1] for ring in (dense.exterior, *dense.interiors)]
     points = np.concatenate(rings)
     origin = points.mean(axis=0)  # far from it, the diagram would lose digits
@@ -73,13 +77,37 @@ def axis_of(case: Case) -> Axis:
     inside = shapely.contains_xy(case.area, nodes)
     links = np.asarray(diagram.ridge_vertices, dtype=np.intp)
     links = links[(links >= 0).all(axis=1) & inside[links].all(axis=1)]
-    first, last = (tip_of(diagram, inside, end - origin) for end in case.ends)
-    return Axis(case, nodes, links, (first, last))
+    piece = pieces(links, len(nodes))
+    whole = np.bincount(piece[links[:, 0]]).argmax()
+    tips = []
+    for end in case.ends:
+        tip = tip_of(diagram, inside, end - origin)
+        if tip < 0 or piece[tip] != whole:
+            tip = tip_beyond(nodes, piece == whole, end, case.width)
+        tips.append(tip)
+    return Axis(case, nodes, links, (tips[0], tips[1]))
+
+
+def pieces(links: NDArray[np.intp], size: int) -> NDArray[np.intp]:
+    """Return the number of the connected piece that each node is in."""
+    graph = csr_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(size, size))
+    found: NDArray[np.intp] = connected_components(graph, directed=False)[1]
+    return found
+
+
+def tip_beyond(nodes: Floats, is_whole: NDArray[np.bool_], end: Floats, width: float) -> int:
+    """Node nearest to an end that is too sharp for its samples, or -1 if none is a width near."""
+    off = np.hypot(*(nodes - end).T)
+    off[~is_whole] = np.inf
+    nearest = int(off.argmin())
+    return nearest if off[nearest] <= width else -1
 
 
 def tip_of(diagram: Voronoi, inside: NDArray[np.bool_], end: Floats) -> int:
-    """Node nearest to an end, of the cell of the boundary point nearest to it."""
+    """Node nearest to an end, of the cell of the boundary point nearest to it, or -1."""
     sample = np.argmin(((diagram.points - end) ** 2).sum(axis=1))
     cell = np.array(diagram.regions[diagram.point_region[sample]])
     cell = cell[(cell >= 0) & inside[cell]]
+    if cell.size == 0:
+        return -1
     return int(cell[np.argmin(((diagram.vertices[cell] - end) ** 2).sum(axis=1))])

@@ -4,17 +4,29 @@ Every entry is called with an area and its average width, so that those that nee
 coordinate units get a sensible one. Packages are imported by the entry that needs them.
 """
 
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import shapely
 from shapely import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 
-from families import Floats
+from families import Case, Floats
 
-__all__ = ["MIDRIB", "RIVALS", "YARDSTICKS", "Way", "longest_path"]
+__all__ = [
+    "MIDRIB",
+    "RIVALS",
+    "VARIANTS",
+    "YARDSTICKS",
+    "Way",
+    "available",
+    "line_by",
+    "longest_path",
+    "variant",
+]
 
 
 @dataclass(frozen=True)
@@ -25,6 +37,43 @@ class Way:
     packages: tuple[str, ...]
     run: Callable[[Polygon, float], Any]
     about: str
+
+
+def line_by(way: Way, case: Case) -> tuple[BaseGeometry | None, str | None]:
+    """Line of an area that nobody has prepared before, or None and the kind of error."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # whatever rivals warn of, their lines are measured
+        try:
+            return way.run(shapely.from_wkb(shapely.to_wkb(case.area)), case.width), None
+        except Exception as failure:  # rivals raise what they like
+            return None, type(failure).__name__
+
+
+def variant(name: str, **options: Any) -> Way:
+    """Midrib with options."""
+
+    def run(area: Polygon, width: float) -> Any:  # noqa: ARG001
+        import midrib
+
+        return midrib.collapse(area, **options)
+
+    written = ", ".join(["area", *(f"{key}={value!r}" for key, value in options.items())])
+    return Way(name, ("midrib",), run, f"`midrib.collapse({written})`")
+
+
+def available(variants: Sequence[Way]) -> tuple[list[Way], list[str]]:
+    """Those of midrib's variants whose options it has, and a note for each of the others."""
+    from midrib.errors import ParameterError
+
+    ways, notes = [], []
+    for way in variants:
+        try:
+            way.run(shapely.box(0, 0, 9, 2), 2.0)
+        except ParameterError as error:
+            notes.append(f"{way.name} ({way.about}) is left out: {error}.")
+        else:
+            ways.append(way)
+    return ways, notes
 
 
 def by_midrib(area: Polygon, width: float) -> Any:  # noqa: ARG001  # it finds the width itself
@@ -141,6 +190,12 @@ def by_earcut(area: Polygon, width: float) -> Any:  # noqa: ARG001
 
 
 MIDRIB = Way("midrib", ("midrib",), by_midrib, "`midrib.collapse(area)`")
+VARIANTS = (
+    variant("midrib, tolerance 0", tolerance=0.0),
+    variant("midrib, symmetric", centring="symmetric"),
+    variant("midrib, symmetric by radii", centring="symmetric", mean="radii"),
+    variant("midrib, centred", centring="centred"),
+)
 RIVALS = (
     Way(
         "pygeoops, tuned",

@@ -5,9 +5,7 @@ python benchmarks/scoreboard.py --sheet    also out/contact_sheet.png: all areas
 """
 
 import argparse
-import warnings
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,8 +14,9 @@ from shapely.geometry.base import BaseGeometry
 
 from families import FAMILIES, Case, make
 from reference import Axis, axis_of
-from rivals import MIDRIB, RIVALS, Way
+from rivals import MIDRIB, RIVALS, Way, line_by
 from score import COLUMNS, NOTHING, Score, score_of
+from sheets import Panel, draw_sheet
 from tables import ROOT, machine, machine_text, markdown, versions, write_json
 
 SIZES = (100, 1000)
@@ -74,13 +73,7 @@ def all_runs(families: tuple[str, ...], sizes: tuple[int, ...], ways: tuple[Way,
 
 def one_run(case: Case, axis: Axis, way: Way) -> Run:
     """Collapse one area; a way that fails has no line."""
-    line, error = None, None
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # whatever rivals warn of, their lines are measured
-        try:
-            line = way.run(shapely.from_wkb(shapely.to_wkb(case.area)), case.width)
-        except Exception as failure:  # rivals raise what they like
-            error = type(failure).__name__
+    line, error = line_by(way, case)
     score = score_of(case, axis, line, is_exact=way is MIDRIB)
     return Run(case, axis, way, line, score, error)
 
@@ -181,30 +174,11 @@ def page(runs: list[Run], ways: tuple[Way, ...]) -> str:
     return "".join(parts).rstrip() + "\n"
 
 
-def draw_sheet(runs: list[Run], path: Path) -> None:
-    """One picture with every area, its trunk and the line."""
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    import matplotlib.pyplot as plt
-
-    columns = 4
-    rows = -(-len(runs) // columns)
-    figure, axes = plt.subplots(rows, columns, figsize=(6 * columns, 4.5 * rows), squeeze=False)
-    for plot, run in zip(axes.flat, runs, strict=False):
-        for ring in (run.case.area.exterior, *run.case.area.interiors):
-            plot.plot(*ring.xy, color="0.5", linewidth=0.7)
-        plot.plot(*run.axis.trunk(run.line).xy, color="tab:green", linewidth=2.5)
-        for part in shapely.get_parts(run.line):
-            plot.plot(*part.xy, color="tab:red", linewidth=1)
-        plot.plot(*run.case.ends.T, "o", color="tab:blue", markersize=4)
-        plot.set_title(run.case.name if run.score.is_clean else f"{run.case.name}: fails")
-        plot.set_aspect("equal", "datalim")
-        plot.axis("off")
-    figure.tight_layout()
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=60)
-    plt.close(figure)
+def panel(run: Run) -> Panel:
+    """One area with its trunk and the line."""
+    title = run.case.name if run.score.is_clean else f"{run.case.name}: fails"
+    trunk = shapely.get_coordinates(run.axis.trunk(run.line))
+    return Panel(title, run.case.area, trunk, run.line, run.case.ends)
 
 
 def main() -> None:
@@ -221,7 +195,8 @@ def main() -> None:
     print(summary(runs, ways))
     print(details([run for run in runs if run.way is MIDRIB]))
     if options.sheet:
-        draw_sheet([run for run in runs if run.way is MIDRIB], SHEET)
+        panels = [panel(run) for run in runs if run.way is MIDRIB]
+        draw_sheet(panels, SHEET)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
+    from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
@@ -18,11 +20,16 @@ __all__ = [
     "Curve",
     "Joint",
     "Problem",
+    "Profile",
+    "SpaceCurve",
     "Strip",
+    "add_widths",
     "collapse",
     "measures",
     "methods",
     "minimal_radii",
+    "minimal_radii_3d",
+    "profile",
     "split",
 ]
 
@@ -30,10 +37,15 @@ HOME = {
     "Curve": "midrib.curves.minimal_radii",
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
+    "Profile": "midrib.profiles",
+    "SpaceCurve": "midrib.curves.space",
     "Strip": "midrib.strip",
+    "add_widths": "midrib.profiles",
     "collapse": "midrib.curves.collapse",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
+    "minimal_radii_3d": "midrib.curves.space",
+    "profile": "midrib.profiles",
     "split": "midrib.strip",
 }
 

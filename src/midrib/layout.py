@@ -60,6 +60,10 @@ class Layout(NamedTuple):
     height: Floats | None
     mean_width: float  # area within the shell over the mean length of the two curves
 
+    def swapped(self) -> "Layout":
+        """Return the same strip with main and auxiliary curve swapped."""
+        return self._replace(main=self.auxiliary, auxiliary=self.main)
+
     @property
     def shares_start(self) -> bool:
         """Whether the two curves start in the same vertex."""

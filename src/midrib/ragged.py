@@ -11,7 +11,7 @@ from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.kernels.rings import Rings, normalise_rings
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Packed", "area_of_one", "pack_areas", "place_text", "rings_of_area"]
+__all__ = ["Packed", "area_of_one", "normalised", "pack_areas", "place_text", "rings_of_area"]
 
 
 class Packed(NamedTuple):
@@ -22,12 +22,18 @@ class Packed(NamedTuple):
     area_offsets: Ints
     has_z: Bools  # of each polygon
 
-    def rings(self, i: int) -> tuple[Rings, Floats | None]:
-        """Rings of polygon i in normal form, and the Z of each row or None."""
+    def rings(self, i: int) -> tuple[Floats, Ints]:
+        """Rows (x, y and Z if it has any) of polygon i and where each of its rings starts."""
         offsets = self.ring_offsets[self.area_offsets[i] : self.area_offsets[i + 1] + 1]
         rows = self.coordinates[offsets[0] : offsets[-1]]
-        rings = normalise_rings(rows, offsets - offsets[0])
-        return rings, (rows[:, 2] if self.has_z[i] else None)
+        if not self.has_z[i] and rows.shape[1] > 2:
+            rows = rows[:, :2].copy()
+        return rows, offsets - offsets[0]
+
+
+def normalised(rows: Floats, offsets: Ints) -> tuple[Rings, Floats | None]:
+    """Rings of one polygon in normal form, and the Z of each row or None."""
+    return normalise_rings(rows, offsets), (rows[:, 2] if rows.shape[1] > 2 else None)
 
 
 def pack_areas(polygons: NDArray[np.object_]) -> Packed:
@@ -43,7 +49,7 @@ def pack_areas(polygons: NDArray[np.object_]) -> Packed:
 
 def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:
     """Rings of one polygon in normal form, and the Z of each row or None."""
-    return pack_areas(np.array([area], dtype=object)).rings(0)
+    return normalised(*pack_areas(np.array([area], dtype=object)).rings(0))
 
 
 def area_of_one(area: object, name: str) -> Polygon:

@@ -14,7 +14,8 @@ pytest.importorskip("scipy")
 from reference import axis_of
 from rivals import MIDRIB
 from score import COLUMNS, score_of
-from scoreboard import all_runs, draw_sheet, page
+from scoreboard import all_runs, page, panel
+from sheets import draw_sheet
 
 
 def along_rectangle(*at: tuple[float, float]) -> LineString:
@@ -90,5 +91,5 @@ def test_page_and_sheet_of_a_tiny_run(tmp_path) -> None:  # type: ignore[no-unty
     assert "## Areas with holes: 1 runs" in text
     assert "| rect 100 | .000 |" in text
     assert runs[0].as_record()["answers"]["inside"]
-    draw_sheet(runs, tmp_path / "sheet.png")
+    draw_sheet([panel(run) for run in runs], tmp_path / "sheet.png")
     assert (tmp_path / "sheet.png").stat().st_size > 0

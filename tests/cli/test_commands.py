@@ -4,9 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute
 import pytest
 import shapely
+from pyarrow import csv
 
+from midrib import measures
 from midrib.cli.app import app
 from midrib.cli.job import with_columns
 from tests.cli.commands import Runner
@@ -39,6 +42,7 @@ INPUTS: dict[str, tuple[list[str | None], int, int]] = {
 COMMANDS = {
     "collapse": ["collapse", "IN", "OUT", "--quiet"],
     "methods": ["methods"],
+    "profile": ["profile", "IN", "OUT", "--quiet"],
 }
 
 
@@ -66,6 +70,9 @@ def test_commands_write_whole_files(
         return
     assert outcome.code == (1 if n_refused else 0), outcome.err
     assert (outcome.out, outcome.err) == ("", "")
+    if command == "profile":
+        check_table(out, n_lines)
+        return
     layer, attributes, lines = read_all(out)
     assert np.count_nonzero(~shapely.is_missing(lines)) == n_lines
     assert len(lines) == len(areas) - n_refused
@@ -75,6 +82,21 @@ def test_commands_write_whole_files(
     for area, line in zip(areas, lines, strict=False):
         if n_refused == 0 and line is not None:
             assert shapely.from_wkt(area).buffer(1e-6).covers(line)
+
+
+def check_table(path: Path, n_features: int) -> None:
+    """A table of stations in order, of so many features, with the stations as points."""
+    layer, rows, points = read_all(path)
+    assert crs_name(layer.crs) == "Amersfoort / RD New"
+    assert rows.column_names == [
+        *("feature", "part", "station", "x", "y", "width", "to_left", "to_right")
+    ]
+    assert len(np.unique(rows["feature"].to_numpy())) == n_features
+    assert shapely.get_coordinates(points)[:, 0] == pytest.approx(rows["x"].to_numpy(), abs=1e-6)
+    feature, part, station = (rows[name].to_numpy() for name in ("feature", "part", "station"))
+    goes_on = (np.diff(feature) == 0) & (np.diff(part) == 0)
+    assert (np.diff(station)[goes_on] > 0.0).all()
+    assert (station[1:][~goes_on] == 0.0).all()
 
 
 @pytest.mark.parametrize("ending", ["gpkg", "parquet", "fgb", "shp"])
@@ -198,3 +220,99 @@ def test_connect_excludes_what_places_ends(
     outcome = midrib("collapse", source, tmp_path / "out.gpkg", "--connect", *option)
     assert outcome.code == 2
     assert f"--connect excludes {option[0]}" in outcome.err
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "fgb", "shp", "gdb", "sqlite", "csv"])
+def test_width_can_be_the_m_of_vertices(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [STRIP, TWO, BENT]), tmp_path / f"out.{ending}"
+    assert midrib("collapse", source, out, "--width", "m", "--quiet").code == 0
+    _, attributes, lines = read_all(out)
+    for wkt, line in zip([STRIP, TWO, BENT], lines, strict=True):
+        m = shapely.get_coordinates(line, include_m=True)[:, 2]
+        expected = measures.width(shapely.force_2d(line), shapely.from_wkt(wkt))
+        stored = 1e-4 if ending == "gdb" else 1e-9  # a geodatabase keeps steps of a tenth of a mm
+        assert m == pytest.approx(expected, abs=stored)
+    assert float(attributes["width_max"].to_pylist()[0]) == 20.0
+
+
+def test_m_goes_beside_z(midrib: Runner, tmp_path: Path) -> None:
+    area = "POLYGON Z ((0 0 5, 90 0 5, 90 20 5, 0 20 5, 0 0 5))"
+    out = tmp_path / "out.gpkg"
+    source = write(tmp_path / "in.gpkg", [area], kind="Polygon Z")
+    assert midrib("collapse", source, out, "--width", "m").code == 0
+    z, m = shapely.get_coordinates(read_all(out)[2], include_z=True, include_m=True)[:, 2:].T
+    assert (z == 5.0).all()
+    assert m.max() == 20.0
+
+
+@pytest.mark.parametrize("ending", ["geojson", "parquet", "kml"])
+def test_formats_without_m_say_so(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    outcome = midrib(
+        "collapse", write(tmp_path / "in.gpkg", [STRIP]), tmp_path / f"out.{ending}", "--width", "m"
+    )
+    assert outcome.code == 2
+    assert "has no place for M values, expected one of .gpkg" in outcome.err
+
+
+def test_plain_tables_have_equal_spacing_and_an_identifier(midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [STRIP, None, BENT]), tmp_path / "out.csv"
+    outcome = midrib("profile", source, out, "--spacing", "2500cm", "--id", "name")
+    assert outcome.code == 0, outcome.err
+    rows = csv.read_csv(out)
+    assert rows.column_names[:4] == ["feature", "name", "part", "station"]
+    first = rows.filter(pa.compute.equal(rows["feature"], 0))
+    assert first["name"].to_pylist() == ["é 0"] * 5
+    assert first["station"].to_pylist() == [0.0, 25.0, 50.0, 75.0, 90.0]
+    assert first["width"].to_pylist() == [0.0, 20.0, 20.0, 20.0, 0.0]
+    assert first["to_left"].to_pylist() == first["to_right"].to_pylist() == [10.0] * 5
+    assert set(rows["feature"].to_pylist()) == {0, 2}
+
+
+@pytest.mark.parametrize("ending", ["csv", "gpkg", "parquet"])
+def test_refused_areas_are_listed_beside_the_table(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    source, out = write(tmp_path / "in.gpkg", INPUTS["degenerate"][0]), tmp_path / f"out.{ending}"
+    outcome = midrib("profile", source, out, "--out-layer", "rows")
+    assert outcome.code == 1
+    assert "4 features, 2 refused" in outcome.err
+    if ending == "gpkg":
+        reasons = read_all(out, "rows_refused")[1]
+    elif ending == "csv":
+        reasons = csv.read_csv(tmp_path / "out_refused.csv")
+    else:
+        reasons = read_all(tmp_path / "out_refused.parquet")[1]
+    assert reasons["feature"].to_pylist() == [1, 2]
+    assert all(reasons["reason"].to_pylist())
+
+
+def test_heights_are_a_column(midrib: Runner, tmp_path: Path) -> None:
+    area = "POLYGON Z ((0 0 0, 90 0 9, 90 20 9, 0 20 0, 0 0 0))"
+    source = write(tmp_path / "in.gpkg", [area], kind="Polygon Z")
+    assert midrib("profile", source, tmp_path / "out.csv").code == 0
+    rows = csv.read_csv(tmp_path / "out.csv")
+    x, z = (rows[name].to_numpy() for name in "xz")
+    assert z == pytest.approx(x / 10.0)
+
+
+def test_profiles_are_plotted(midrib: Runner, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    source, figure = write(tmp_path / "in.gpkg", random_areas()), tmp_path / "picture.svg"
+    outcome = midrib("profile", source, tmp_path / "out.csv", "--figure", figure)
+    assert outcome.code == 0, outcome.err
+    assert "<svg" in figure.read_text()
+
+
+@pytest.mark.parametrize("simplify", ["2", "2m", "200cm", "20%"])
+def test_lines_are_simplified_and_smoothed(simplify: str, midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [BENT, STRIP]), tmp_path / "out.gpkg"
+    assert midrib("collapse", source, out, "--simplify", simplify).code == 0
+    plain = read_all(out)[2]
+    assert shapely.get_num_coordinates(plain).tolist() == [3, 2]
+    outcome = midrib("collapse", source, out, "--simplify", simplify, "--smooth", "--overwrite")
+    assert outcome.code == 0
+    _, attributes, lines = read_all(out)
+    assert shapely.get_num_coordinates(lines).tolist() == [10, 2]
+    assert shapely.from_wkt(BENT).covers(lines[0])
+    assert attributes["length"].to_pylist() == shapely.length(lines).tolist()
+    assert lines[0].length < plain[0].length

@@ -12,7 +12,7 @@ import pytest
 
 import midrib
 
-PAGES = {"midrib": [], "collapse": ["collapse"], "methods": ["methods"]}
+PAGES = {"midrib": [], "collapse": ["collapse"], "methods": ["methods"], "profile": ["profile"]}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from midrib.errors import InvariantError
-from tests.cli.commands import Runner
+from tests.cli.commands import Outcome, Runner
 from tests.formats.layers import write
 
 STRIP = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0))"
@@ -34,6 +34,19 @@ WRONG: dict[str, tuple[list[str], str]] = {
         ["in.gpkg", "out.gpkg", "--end-clearance", "wide"],
         "--end-clearance is 'wide', expected",
     ),
+    "simplify": (
+        ["in.gpkg", "out.gpkg", "--simplify", "much"],
+        "--simplify is 'much', expected a number",
+    ),
+    "simplify by less than nothing": (
+        ["in.gpkg", "out.gpkg", "--simplify", "-5%"],
+        "simplify is '-5%', expected a length",
+    ),
+    "width": (["in.gpkg", "out.gpkg", "--width", "z"], "'z' is not one of"),
+    "width in parquet": (
+        ["in.gpkg", "out.parquet", "--width", "m"],
+        "OUT 'out.parquet' has no place for M values",
+    ),
     "method": (["in.gpkg", "out.gpkg", "--method", "magic"], "method is 'magic', expected"),
     "main": (["in.gpkg", "out.gpkg", "--main", "x"], "--main is 'x', expected a layer of IN"),
     "main field": (["in.gpkg", "out.gpkg", "--main", "in:x"], "--main names the field 'x'"),
@@ -42,6 +55,20 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "unknown option": (["in.gpkg", "out.gpkg", "--spicing", "2"], "No such option"),
     "missing argument": (["in.gpkg"], "Missing argument 'OUT'"),
     "rule for ends": (["in.gpkg", "out.gpkg", "--ends", "odd"], "'odd' is not one of"),
+}
+WRONG_PROFILE: dict[str, tuple[list[str], str]] = {
+    "missing file": (["no.gpkg", "out.csv"], "IN 'no.gpkg' does not exist"),
+    "lines": (["lines.gpkg", "out.csv"], "holds LineString, expected areas"),
+    "unknown ending": (["in.gpkg", "out.txt"], "OUT 'out.txt' ends in '.txt', expected one of"),
+    "drawing": (["in.gpkg", "out.dxf"], "ends in '.dxf', which holds no table"),
+    "existing output": (["in.gpkg", "lines.gpkg"], "OUT 'lines.gpkg' exists, give --overwrite"),
+    "output is input": (["in.gpkg", "in.gpkg", "--overwrite"], "OUT 'in.gpkg' is IN"),
+    "spacing": (["in.gpkg", "out.csv", "--spacing", "2x"], "--spacing is '2x', expected a number"),
+    "no spacing": (["in.gpkg", "out.csv", "--spacing", "0"], "spacing is 0.0, expected a positive"),
+    "too dense": (["in.gpkg", "out.csv", "--spacing", "1e-12"], "stations, expected fewer"),
+    "identifier": (["in.gpkg", "out.csv", "--id", "x"], "--id is 'x', expected a field of layer"),
+    "method": (["in.gpkg", "out.csv", "--method", "magic"], "method is 'magic', expected"),
+    "figure": (["in.gpkg", "out.csv", "--figure", "a.gif"], "--figure 'a.gif' ends in '.gif'"),
 }
 
 
@@ -63,6 +90,18 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 def test_wrong_usage_is_explained_in_a_sentence(case: str, midrib: Runner) -> None:
     arguments, sentence = WRONG[case]
     outcome = midrib("collapse", *arguments)
+    check(outcome, sentence)
+
+
+@pytest.mark.usefixtures("folder")
+@pytest.mark.parametrize("case", WRONG_PROFILE)
+def test_wrong_usage_of_profile_is_explained_in_a_sentence(case: str, midrib: Runner) -> None:
+    arguments, sentence = WRONG_PROFILE[case]
+    check(midrib("profile", *arguments), sentence)
+
+
+def check(outcome: Outcome, sentence: str) -> None:
+    """Exit code 2 and the sentence."""
     assert outcome.code == 2
     assert sentence in outcome.err
     assert "Traceback" not in outcome.err

@@ -237,7 +237,7 @@ def test_a_strip_that_sees_nothing_is_refused() -> None:
     """Everything within the clearance of the shared ends, and so everything, is hidden."""
     strip = split(NAMED["L"], along=LineString([(0, 0), (10, 0)]))
     assert strip.main.length == 10.0
-    with pytest.raises(InvalidAreaError, match="no station sees anything of the auxiliary curve"):
+    with pytest.raises(InvalidAreaError, match="no station of the main curve sees anything"):
         minimal_radii(strip, end_clearance=30.0)
 
 

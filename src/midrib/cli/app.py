@@ -6,6 +6,7 @@ import typer
 
 from midrib import __version__
 from midrib.cli.collapse import collapse
+from midrib.cli.profile import profile
 
 __all__ = ["app"]
 
@@ -28,6 +29,17 @@ app.command(
     "midrib collapse roads.gpkg out.gpkg --connect\n\n"
     "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)
+app.command(
+    help="Measure the width of areas along their lines: a table of stations and widths.\n\n"
+    "Columns: feature (number in the file, from 0) and part; station along the line; x, y and z if "
+    "there are heights; width, twice the distance to the boundary; to_left and to_right, the "
+    "distances to the two banks, left and right in the line's direction. Lengths are in units of "
+    "the CRS, metres if it is geographic. The lines are those of midrib collapse. Areas that are "
+    "refused go to a layer, or a file, …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib profile rivers.gpkg widths.csv --spacing 10m --id name\n\n"
+    "midrib profile rivers.gpkg stations.gpkg --figure widths.svg",
+)(profile)
 
 
 def show_version(is_asked: bool) -> None:

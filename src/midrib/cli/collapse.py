@@ -11,7 +11,7 @@ from midrib.errors import ParameterError
 __all__ = ["collapse"]
 
 CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
-LAYERS, LINE, OUTPUT = "Which features", "How the line is made", "Output"
+LAYERS, LINE, CARE, OUTPUT = "Which features", "How the line is made", "After-care", "Output"
 
 
 class EndRule(StrEnum):
@@ -21,6 +21,29 @@ class EndRule(StrEnum):
     caps = "caps"
     radii = "radii"
     none = "none"
+
+
+class Centring(StrEnum):
+    """Ways of centring a line."""
+
+    none = "none"
+    symmetric = "symmetric"
+    centred = "centred"
+
+
+class Mean(StrEnum):
+    """Means of the two curves of a symmetric line."""
+
+    radii = "radii"
+    proportional = "proportional"
+    same_height = "same-height"
+
+
+class WidthPlace(StrEnum):
+    """Where the width of areas is written."""
+
+    columns = "columns"
+    m = "m"
 
 
 def collapse(
@@ -76,11 +99,40 @@ def collapse(
         ),
     ] = None,
     vertices: Annotated[
-        bool,
+        bool | None,
         typer.Option(
-            metavar="", help="Radii at the vertices of the side too.", rich_help_panel=LINE
+            metavar="",
+            help="Radii at the vertices of the side too; yes, unless the line is centred.",
+            rich_help_panel=LINE,
+            show_default=False,
         ),
-    ] = True,
+    ] = None,
+    centring: Annotated[
+        Centring,
+        typer.Option(
+            metavar="HOW",
+            help="centred: equally far from both sides; symmetric: mean of the two curves from "
+            "either side; none: the paper's curve.",
+            rich_help_panel=LINE,
+        ),
+    ] = Centring.centred,
+    tolerance: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH",
+            help="How far off the middle a centred line may be; a 200th of the mean width unless "
+            "you say otherwise.",
+            rich_help_panel=LINE,
+        ),
+    ] = None,
+    mean: Annotated[
+        Mean | None,
+        typer.Option(
+            metavar="NAME",
+            help="Mean of a symmetric line: radii, proportional, same-height.",
+            rich_help_panel=LINE,
+        ),
+    ] = None,
     ends: Annotated[
         EndRule,
         typer.Option(
@@ -92,14 +144,14 @@ def collapse(
         ),
     ] = EndRule.caps,
     end_clearance: Annotated[
-        str,
+        str | None,
         typer.Option(
             metavar="RULE|LENGTH",
             help="What keeps radii out of a tip that both sides share: station, proportional, "
-            "none, or a length.",
+            "none, or a length; proportional, unless the line is centred.",
             rich_help_panel=LINE,
         ),
-    ] = "proportional",
+    ] = None,
     connect: Annotated[
         bool,
         typer.Option(
@@ -110,6 +162,33 @@ def collapse(
             rich_help_panel=LINE,
         ),
     ] = False,
+    simplify: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LENGTH|PERCENT",
+            help="Leave out vertices as long as the line stays this near to the full one, inside "
+            "the area: 50cm, or 5% of the mean width.",
+            rich_help_panel=CARE,
+        ),
+    ] = None,
+    smooth: Annotated[
+        bool,
+        typer.Option(
+            "--smooth",
+            metavar="",
+            help="Cut the line's corners, inside the area, in three rounds.",
+            rich_help_panel=CARE,
+        ),
+    ] = False,
+    width: Annotated[
+        WidthPlace,
+        typer.Option(
+            metavar="columns|m",
+            help="Where the width along the line is written. columns: its mean and maximum; m: "
+            "beside them, as the M value of every vertex.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = WidthPlace.columns,
     out_layer: Annotated[
         str | None,
         typer.Option(
@@ -136,7 +215,7 @@ def collapse(
 ) -> None:
     """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.guides import guides_for
-    from midrib.cli.job import check_options, collapse_layer
+    from midrib.cli.job import Results, check_options, collapse_layer
     from midrib.cli.output import Places, draw
     from midrib.cli.report import Report
     from midrib.formats.reading import choose_layer, open_layer
@@ -145,24 +224,29 @@ def collapse(
     if connect:
         check_alone(main=main, ends=ends, figure=figure)
     places = Places(source, out, figure, connect)
-    places.check(overwrite=overwrite)
+    places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        options: dict[str, Any] = {
-            "ends": None if ends is EndRule.none else ends.value,
-            "end_clearance": clearance(end_clearance, features.crs),
+        given = {
+            "count": count,
+            "percent": percent,
             "vertices": vertices,
+            "mean": mean and mean.value,
+            "smooth": smooth or None,
+            "spacing": spacing and length_in(spacing, features.crs, "--spacing"),
+            "tolerance": tolerance and length_in(tolerance, features.crs, "--tolerance"),
+            "simplify": simplify and deviation(simplify, features.crs),
         }
-        if spacing is not None:
-            options["spacing"] = length_in(spacing, features.crs, "--spacing")
-        if count is not None:
-            options["count"] = count
-        if percent is not None:
-            options["percent"] = percent
+        options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
+        options["centring"] = centring.value
+        options["ends"] = None if ends is EndRule.none else ends.value
+        if end_clearance is not None:
+            options["end_clearance"] = clearance(end_clearance, features.crs)
         check_options(method, options)
         guides = guides_for(main, source, features)
-        results = collapse_layer(features, method, options, guides, report, connect=connect)
+        results = Results(features, has_m=width is WidthPlace.m)
+        collapse_layer(results, method, options, guides, report, connect=connect)
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
@@ -192,4 +276,17 @@ def clearance(text: str, crs: str | None) -> str | float | None:
         return length_in(text, crs, "--end-clearance")
     except ParameterError as error:
         msg = f"{error}, or station, proportional, none"
+        raise ParameterError(msg) from None
+
+
+def deviation(text: str, crs: str | None) -> str | float:
+    """Read the deviation of a simplified line: a percentage as it stands, or a length."""
+    from midrib.formats.units import length_in
+
+    if text.strip().endswith("%"):
+        return text
+    try:
+        return length_in(text, crs, "--simplify")
+    except ParameterError as error:
+        msg = f"{error}, or a share of the width: 5%"
         raise ParameterError(msg) from None

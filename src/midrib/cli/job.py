@@ -8,9 +8,11 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
+from midrib.curves.aftercare import aftercare
 from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
+from midrib.profiles import add_widths
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -30,6 +32,7 @@ class Results:
     """What has become of a layer, batch by batch."""
 
     source: "Source"
+    has_m: bool = False  # whether lines carry the width as M values
     attributes: list[pa.Table] = field(default_factory=list)
     lines: "list[Geometries]" = field(default_factory=list)
     refused_attributes: list[pa.Table] = field(default_factory=list)
@@ -44,20 +47,22 @@ class Results:
 
 def check_options(method: str, options: dict[str, Any]) -> None:
     """Refuse a method or an option that there is not, even where no feature needs it."""
+    options = dict(options)
+    aftercare(options.pop("simplify", None), options.pop("smooth", False))
     finder_of(method, **options)
 
 
 def collapse_layer(
-    source: "Source",
+    results: Results,
     method: str,
     options: dict[str, Any],
     guides: "Guides",
     report: "Report",
     *,
     connect: bool = False,
-) -> Results:
+) -> None:
     """Collapse all features of a layer: a batch at a time, or all at once if lines are to meet."""
-    results = Results(source)
+    source = results.source
     geographic = is_geographic(source.crs)
     report.start()
     batches = report.track(source.batches(), source.count)
@@ -82,7 +87,6 @@ def collapse_layer(
         add_refused(results, batch, refused)
         results.n_features += len(lines)
         results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
-    return results
 
 
 def whole(batches: "Iterable[Batch]") -> "Batch":
@@ -144,6 +148,8 @@ def add_lines(
         "status": pa.array([status[i] for i in rows], type=pa.string()),
     }
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))
+    if results.has_m:
+        lines = add_widths(lines, areas, geographic=geographic)
     results.lines.append(lines)
     results.n_lines += int(np.count_nonzero(~shapely.is_missing(lines)))
     results.total_length += float(np.nansum(length))

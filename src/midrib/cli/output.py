@@ -10,7 +10,7 @@ import pyarrow as pa
 from midrib.cli.job import joint_features
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
-from midrib.formats.endings import format_of
+from midrib.formats.endings import endings_with_m, format_of
 from midrib.formats.units import Unit, is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged, write_layer
 
@@ -56,15 +56,21 @@ class Places(NamedTuple):
         """Every file for features that a run may write."""
         return [self.out, self.refused, *([self.joints] if self.connect else [])]
 
-    def check(self, *, overwrite: bool) -> None:
+    def check(self, *, overwrite: bool, needs_m: bool = False) -> None:
         """Refuse places that cannot be written to, before any work is done.
 
         Raises
         ------
         ParameterError
-            If OUT has an unknown ending, is IN, or exists and is not to be overwritten.
+            If OUT has an unknown ending or no place for M values that are needed, is IN, or exists
+            and is not to be overwritten.
         """
-        format_of(self.out)
+        if not format_of(self.out).has_m and needs_m:
+            msg = (
+                f"OUT {str(self.out)!r} has no place for M values, expected one of "
+                f"{', '.join(endings_with_m())} with --width m"
+            )
+            raise ParameterError(msg)
         if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
             msg = f"OUT {str(self.out)!r} is IN, expected another file"
             raise ParameterError(msg)

@@ -10,7 +10,8 @@ import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from midrib.curves.connecting import Joined, make_joints, plan_joints
+from midrib.curves.aftercare import Aftercare, aftercare, tend
+from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
 from midrib.curves.methods import Finder, Found, finder_of
 from midrib.errors import (
     GeometryTypeError,
@@ -20,7 +21,6 @@ from midrib.errors import (
     RepairedAreaWarning,
 )
 from midrib.geodesy import degree_lengths
-from midrib.kernels.rings import Rings
 from midrib.layout import Scale
 from midrib.ragged import pack_areas
 from midrib.repair import repaired
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from midrib.ends import End
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
     Areas = NDArray[np.object_]
 
@@ -65,6 +65,8 @@ def collapse(
     along: Any = None,
     geographic: bool | None = None,
     connect: bool = False,
+    simplify: float | str | None = None,
+    smooth: bool = False,
     **options: Any,
 ) -> Any:
     """Collapse areas to lines: one line without branches inside each.
@@ -88,6 +90,13 @@ def collapse(
     connect : bool, default False
         Whether the lines of areas that share an edge meet: in its middle if it is at an end of
         both, else the line of the one goes on to the line of the other. See the notes.
+    simplify : float or str, optional
+        Leave out vertices as long as the line stays within this distance of the full one: a
+        length in coordinate units, in metres if geographic; or text, a share of the mean width
+        (the area over the line's length): ``"5%"``.
+    smooth : bool, default False
+        Cut the line's corners, in three rounds; after simplification. Of a line with many vertices
+        it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``; ``ends`` is ``"caps"`` and ``skip`` is ``"bays"`` unless
         you say otherwise.
@@ -112,14 +121,16 @@ def collapse(
     -----
     The two ends come from the area's shape (``midrib.split``), the line from the radii between
     the two sides (``midrib.minimal_radii``). Every line is covered by its area, exactly, or by the
-    repaired area where one was repaired.
+    repaired area where one was repaired. So are simplified and smoothed lines, which keep their
+    ends and do not meet themselves: where a shorter way would leave the area, the vertices stay.
 
     With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
     proposes: an edge that covers half a flat end or is half on it, or is within half a width of
     another end; unless the area reaches less than half as far from it as it is long. It also looks
     at edges within a width of its ends (three, if across) that are ends of its neighbours. Of
     several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by
-    bit. It is on the edge but for rounding, so that lines are covered by the areas of both.
+    bit. It is on the edge but for rounding, so that lines are covered by the areas of both. They
+    are simplified and smoothed as far as the edges, and keep their joints.
     ``"report"`` adds a ``Joint`` for each shared edge, with the reason where there is none. Edges
     are shared where boundaries are not farther apart than their coordinates are rounded.
 
@@ -136,7 +147,7 @@ def collapse(
     if connect and (along is not None or options.get("ends", "caps") != "caps"):
         msg = "connect places the ends of lines, give it without along and ends"
         raise ParameterError(msg)
-    find = finder_of(method, **options)
+    find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
     if series is not None:
@@ -146,7 +157,7 @@ def collapse(
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
     flat, along = array.ravel(), guides(along, array.size)
-    lines = collapse_all(flat, find, along, bool(geographic), log, connect=connect)
+    lines = collapse_all(flat, find, along, bool(geographic), log, care, connect=connect)
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -240,6 +251,7 @@ def collapse_all(
     along: "Areas | None",
     geographic: bool,
     log: Log,
+    care: Aftercare,
     *,
     connect: bool,
 ) -> "Areas":
@@ -249,10 +261,11 @@ def collapse_all(
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
     if connect:
-        parts_lines = connected_lines(parts, areas, find, geographic, log)
+        tended = connected_lines(parts, areas, find, geographic, log, care)
     else:
-        parts_lines = lines_of(parts, find, along, geographic, log)
-    for part, line in zip(parts, parts_lines, strict=True):
+        full = lines_of(parts, find, along, geographic, log)
+        tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
+    for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
     for i, pieces in enumerate(found):
@@ -295,15 +308,24 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
 
 
 def connected_lines(
-    parts: list[Part], areas: "Areas", find: Finder, geographic: bool, log: Log
+    parts: list[Part],
+    areas: "Areas",
+    find: Finder,
+    geographic: bool,
+    log: Log,
+    care: Aftercare,
 ) -> list[LineString | None]:
-    """Return the line of each part, None where it was refused; lines of neighbours meet."""
+    """Return the line of each part, None where it was refused; lines of neighbours meet.
+
+    After-care comes before joints: it keeps ends, and ways to other lines start there.
+    """
     known = {(part.area, part.number) for part in parts}
     others = [part for part in all_parts(areas) if (part.area, part.number) not in known]
     every = [*parts, *others]
     plan = plan_joints(polygons_of(every), len(parts), geographic=geographic)
     prepared = [p._replace(polygon=area) for p, area in zip(parts, plan.areas, strict=False)]
-    lines = lines_of(prepared, find, None, geographic, log, plan.ends)
+    lines = straightened(plan, lines_of(prepared, find, None, geographic, log, plan.ends))
+    lines = tend(lines, [part.polygon for part in prepared], care, geographic=geographic)
     lines, joined = make_joints(plan, lines)
     for row in joined:
         log.join(row, *(every[i] for i in row.areas))
@@ -363,15 +385,15 @@ def find_between(
     find: Finder,
     joints: "list[tuple[End, End] | None] | None",
     i: int,
-    rings: Rings,
-    height: "Floats | None",
+    coordinates: "Floats",
+    offsets: "Ints",
     guide: Any,
     scale: Scale,
 ) -> Found:
     """Line of area i between the ends it is to have; where there is none, strike these out."""
     if joints is not None and joints[i] is not None:
         try:
-            return find(rings, height, guide, scale, joints[i])
+            return find(coordinates, offsets, guide, scale, joints[i])
         except MidribError:
             joints[i] = None
-    return find(rings, height, guide, scale)
+    return find(coordinates, offsets, guide, scale)

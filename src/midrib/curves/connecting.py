@@ -21,11 +21,11 @@ from midrib.ends import End
 from midrib.errors import MidribError
 from midrib.geodesy import degree_lengths
 from midrib.layout import Scale
-from midrib.ragged import pack_areas
+from midrib.ragged import normalised, pack_areas
 from midrib.shared_edges import SharedEdge, find_shared_edges
 from midrib.types import Floats
 
-__all__ = ["Joined", "Kind", "Plan", "make_joints", "plan_joints"]
+__all__ = ["Joined", "Kind", "Plan", "make_joints", "plan_joints", "straightened"]
 
 Areas = NDArray[np.object_]
 Lines = list[LineString | None]
@@ -89,9 +89,9 @@ def plan_joints(areas: Areas, n_lines: int, *, geographic: bool) -> Plan:
     -----
     1. Each area takes the shared edges at the ends that its shape proposes, and so offers them to
     its neighbours. 2. Each area looks again, now also at edges that are offered near its ends
-    (``Outline.is_near``). An end that is left over where the area is about as long as wide moves to the other
-    side from the edge that it does take, and may meet one there. So do short pieces, whose shape
-    proposes the wrong two sides. 3. Again, until nothing new is offered.
+    (``Outline.is_near``). An end that is left over where the area is about as long as wide moves to
+    the other side from the edge that it does take, and may meet one there. So do short pieces,
+    whose shape proposes the wrong two sides. 3. Again, until nothing new is offered.
     """
     shared = find_shared_edges(areas)
     contacts = [contact_of(edge, geographic=geographic) for edge in shared.edges]
@@ -159,7 +159,7 @@ def outlines_of(areas: Areas, which: list[int], *, geographic: bool) -> dict[int
     for row, i in enumerate(which):
         try:
             scale = degree_lengths(np.array(areas[i].bounds)) if geographic else PLANE
-            outlines[i] = Outline(packed.rings(row)[0], scale)
+            outlines[i] = Outline(normalised(*packed.rings(row))[0], scale)
         except MidribError:  # the line of such an area is refused, with the reason
             continue
     return outlines
@@ -242,7 +242,7 @@ def with_opposite(i: int, outline: Outline, pair: Pair, edges: list[Contact]) ->
 
 
 def free_end(i: int, outline: Outline, number: int, contact: Contact) -> End:
-    """Return an end that no edge takes; moved to the other side from one that is too near it."""
+    """Return an end that no edge takes; moved to the other side if it is near one that is taken."""
     on_shell = contact.stretch[i]
     if outline.is_near(on_shell, outline.ends[number]):
         return outline.at(on_shell.start + (on_shell.length + outline.perimeter) * HALF)
@@ -259,6 +259,8 @@ def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
             other = pair[1 - number]
             assert other is not None
             end = free_end(i, outline, number, other)
+            if outline.has(outline.ends[number], outline.position(end)):
+                end = outline.ends[number]
             caps.append(end)
             middles.append(outline.at(outline.position(end) + outline.length(end) * HALF))
         else:
@@ -276,12 +278,27 @@ def ends_at(i: int, outline: Outline, pair: Pair) -> Ends | None:
     return None
 
 
+def straightened(plan: Plan, lines: Lines) -> Lines:
+    """Return the lines between their ends without hooks at shared edges; see ``Chain.unhook``.
+
+    Ends where no line could be drawn between them are no longer chosen.
+    """
+    chains = {i: Chain.of(line) for i, line in enumerate(lines) if line is not None}
+    for contact in plan.contacts:
+        contact.chosen = {i: end for i, end in contact.chosen.items() if plan.ends[i] is not None}
+        reach = float(np.abs(contact.edge.points - contact.middle).max())
+        for i, end in contact.chosen.items():
+            if i in chains:
+                chains[i].unhook(end, plan.areas[i], reach)
+    return [chains[i].line() if i in chains else None for i in range(len(lines))]
+
+
 def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
     """Let the lines of areas with chosen ends meet.
 
     Parameters
     ----------
-    plan : which ends were chosen; None instead where no line could be drawn between them
+    plan : which ends were chosen
     lines : the line of each area between its ends, None where it was refused
 
     Returns
@@ -290,12 +307,9 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
     joined : one row for each shared edge
     """
     chains = {i: Chain.of(line) for i, line in enumerate(lines) if line is not None}
-    for contact in plan.contacts:
-        contact.chosen = {i: end for i, end in contact.chosen.items() if plan.ends[i] is not None}
     joined: list[Joined] = []
     sides: list[tuple[Contact, int, int]] = []
     for contact in plan.contacts:
-        unhook(contact, plan.areas, chains)
         reason = obstacle(contact, chains)
         if reason:
             joined.append(Joined(contact.edge.areas, "none", contact.middle, reason))
@@ -339,14 +353,6 @@ def obstacle(contact: Contact, chains: Chains) -> str:
     if contact.at_end:
         return "the end there is joined to another area"
     return "it is at an end of neither area"
-
-
-def unhook(contact: Contact, areas: Areas, chains: Chains) -> None:
-    """Straighten lines on their last way to a shared edge."""
-    reach = float(np.abs(contact.edge.points - contact.middle).max())
-    for i, end in contact.chosen.items():
-        if i in chains:
-            chains[i].unhook(end, areas[i], reach)
 
 
 def meet(contact: Contact, chains: Chains) -> None:

@@ -14,14 +14,16 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import shapely
 
+from midrib.curves.heights import heights_inside
 from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels import joining as kernel
 from midrib.kernels.radii import draw_radii
+from midrib.kernels.trunk import trace_trunk
 from midrib.layout import EndPoints, Layout
 from midrib.types import Floats, Ints
 
-__all__ = ["EndRule", "Path", "check_ends", "join_middles"]
+__all__ = ["EndRule", "Path", "check_ends", "heights_of", "join_middles"]
 
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
 RULES = ("main", "caps", "radii")
@@ -31,30 +33,54 @@ NO_ENDS = EndPoints(
 
 
 class Path(NamedTuple):
-    """The finished chain: points, Z, and the number of loops cut out."""
+    """The finished chain."""
 
     points: Floats  # (m, 2)
     height: Floats | None  # (m,) Z
-    loops: int
+    radius: Ints  # (m,) the radius that each point is on, or -1
+    middles: Floats  # (k, 2) the point of each radius
+    loops: int  # how many were cut out
+
+    @property
+    def on_radii(self) -> Ints:
+        """Rows of the points that are on radii."""
+        return np.flatnonzero(self.radius >= 0)
 
 
-def join_middles(layout: Layout, radii: Radii, rule: EndRule) -> Path:
+def join_middles(
+    layout: Layout, radii: Radii, rule: EndRule, *, centred_within: float | None = None
+) -> Path:
     """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
 
     Radii that never turn back cut an area without holes into pieces in order, so that the chain
     has no loops; radii that lie on each other or on the boundary are the exception to that.
+    With ``centred_within`` (a length) the chain goes through the points of the radii that are
+    equally far from both banks, and is nowhere probed to be farther than that from such a point.
     """
     ends = end_points(layout, rule)
-    points, source, loops = kernel.join_middles(
-        layout.mesh, radii.points, radii.at, ends.point, ends.origin, ends.at, *layout.scale
-    )
+    strung = radii.points, radii.at, ends.point, ends.origin, ends.at
+    if centred_within is None:
+        points, source, loops, beads = kernel.join_middles(layout.mesh, *strung, *layout.scale)
+    else:
+        points, source, loops, beads = trace_trunk(
+            layout.mesh, layout.main, layout.auxiliary, *strung, centred_within, *layout.scale
+        )
     if rule not in RULES and len(ends.point):
         refuse_ends_outside(ends, points, source, len(radii.points) + 2)
     if points.shape[0] < 2:
         x, y = points[0]
         msg = f"the curve is one point, ({x:.12g}, {y:.12g}); a line needs two"
         raise InvalidAreaError(msg)
-    return Path(points, height_along(layout, radii, points, source, ends), loops)
+    first, k = len(ends.point) // 2, len(radii.points)
+    is_radius = (source >= first) & (source < first + k)
+    middles = beads[first : first + k]
+    return Path(
+        points,
+        height_along(layout, radii, middles, points, source, ends),
+        np.where(is_radius, source - first, -1),
+        middles,
+        loops,
+    )
 
 
 def check_ends(ends: EndRule, clearance: EndClearance) -> None:
@@ -132,7 +158,13 @@ def radius_ends(layout: Layout) -> EndPoints:
             )
             raise ParameterError(msg)
     middle = (drawn.points[first, :2] + drawn.points[first, 2:4]) / 2.0
-    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), np.full(2, np.nan))
+    height = np.full(2, np.nan)
+    if layout.height is not None:
+        on_auxiliary = np.interp(
+            drawn.points[first, 4], auxiliary.arc, layout.height[auxiliary.vertex]
+        )
+        height = (ends.height + on_auxiliary) / 2.0
+    return EndPoints(middle, ends.point, np.column_stack([side, ends.at[:, 1]]), height)
 
 
 def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: int) -> None:
@@ -146,26 +178,42 @@ def refuse_ends_outside(ends: EndPoints, points: Floats, source: Ints, count: in
 
 
 def height_along(
-    layout: Layout, radii: Radii, points: Floats, source: Ints, ends: EndPoints
+    layout: Layout, radii: Radii, middles: Floats, points: Floats, source: Ints, ends: EndPoints
 ) -> Floats | None:
     """Z of every point of the path, None if the area has none.
 
-    Of a middle, the mean of the two curves' heights; of a mesh vertex, its own; of a crossing,
-    in between along the path.
+    Of a point on a radius, what lies between the two curves' heights there; of an end of the
+    caller's, that of the mesh there.
     """
     height = layout.height
     if height is None:
         return None
     main, auxiliary = layout.main, layout.auxiliary
+    from_main = np.hypot(*((middles - radii.points[:, :2]) * layout.scale).T)
+    radius = radii.points[:, 5]
+    share = np.divide(from_main, radius, out=np.full_like(radius, 0.5), where=radius > 0.0)
     on_main = np.interp(radii.stations[radii.station], main.arc, height[main.vertex])
     on_auxiliary = np.interp(radii.arc, auxiliary.arc, height[auxiliary.vertex])
-    beads = (on_main + on_auxiliary) / 2.0
+    beads = on_main + share * (on_auxiliary - on_main)
     beads = np.concatenate([ends.height[:1], beads, ends.height[1:]])
+    return heights_of(layout, points, source, beads)
+
+
+def heights_of(layout: Layout, points: Floats, source: Ints, beads: Floats | None) -> Floats | None:
+    """Z of every point of a path that joins beads of known Z (NaN if not); None without.
+
+    Of a mesh vertex, its own; of a point that is neither, in between along the path.
+    """
+    height = layout.height
+    if height is None or beads is None:
+        return None
     z = np.where(
         source < 0,
         height[np.where(source < 0, -1 - source, 0)],
         np.append(beads, np.nan)[np.maximum(source, 0)],
     )
+    unknown = np.isnan(z)
+    z[unknown] = heights_inside(layout.mesh, height, points[unknown])
     unknown = np.isnan(z)
     if unknown.any() and not unknown.all():
         along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])

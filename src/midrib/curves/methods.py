@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from midrib.curves.joining import check_ends, join_middles
-from midrib.curves.radii import draw_radii
-from midrib.curves.stations import station_rule
-from midrib.errors import InvalidAreaError, ParameterError
+from midrib.curves.construction import CENTRED_WITHIN, Construction
+from midrib.errors import ParameterError
+from midrib.kernels.collapsing import collapse_rings
 from midrib.layout import Scale
+from midrib.ragged import normalised
 from midrib.strip import divide
 
 if TYPE_CHECKING:
@@ -16,10 +16,9 @@ if TYPE_CHECKING:
     from shapely import LineString
 
     from midrib.ends import End
-    from midrib.kernels.rings import Rings
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
-__all__ = ["Finder", "Found", "Method", "finder_of", "methods"]
+__all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of", "methods"]
 
 
 class Found(NamedTuple):
@@ -35,8 +34,8 @@ class Finder(Protocol):
 
     def __call__(
         self,
-        rings: "Rings",
-        height: "Floats | None",
+        coordinates: "Floats",
+        offsets: "Ints",
         along: "LineString | None",
         scale: Scale,
         joints: "tuple[End, End] | None" = None,
@@ -56,30 +55,40 @@ class Method:
     finder: "Callable[..., Finder]"
 
 
-def minimal_radii_finder(
-    *,
-    ends: Any = "caps",
-    end_clearance: Any = "proportional",
-    skip: Any = "bays",
-    **stations: Any,
-) -> "Finder":
+USUAL: dict[str, Any] = {"ends": "caps", "centring": "centred", "end_clearance": None}
+
+
+def construction_of_collapse(**options: Any) -> Construction:
+    """Return the construction of ``collapse``, with its own defaults.
+
+    The trunk does not enter bays, nor do its points collapse into a shared end; other curves leave
+    out stations in bays and keep the end clearance of ``minimal_radii``.
+    """
+    usual = USUAL
+    if options.get("centring", "centred") != "centred":
+        usual = {"ends": "caps", "skip": "bays"}
+    return Construction(**(usual | options))
+
+
+def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
-    check_ends(ends, end_clearance)
-    rule = station_rule(skip=skip, **stations)
+    construction = construction_of_collapse(**options)
+    is_usual = options.items() <= USUAL.items()
 
     def find(
-        rings: "Rings",
-        height: "Floats | None",
+        coordinates: "Floats",
+        offsets: "Ints",
         along: "LineString | None",
         scale: Scale,
         joints: "tuple[End, End] | None" = None,
     ) -> Found:
-        layout = divide(rings, height, scale, along=along, ends=joints)
-        radii = draw_radii(layout, rule, end_clearance)
-        if len(radii.points) == 0:
-            msg = "no station of the main curve sees anything of the auxiliary curve"
-            raise InvalidAreaError(msg)
-        path = join_middles(layout, radii, ends)
+        is_free = along is None and joints is None
+        if is_usual and is_free and coordinates.shape[1] == 2:
+            is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
+            if is_done:
+                return Found(points, None, loops)
+        rings, height = normalised(coordinates, offsets)
+        _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
         return Found(path.points, path.height, path.loops)
 
     return find

@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from shapely import LineString
 
-from midrib.curves.joining import EndRule, check_ends, join_middles
-from midrib.curves.radii import EndClearance, draw_radii, jumps_of
-from midrib.curves.stations import Skip, station_rule
-from midrib.errors import GeometryTypeError, InvalidAreaError
+from midrib.curves.averaging import Mean
+from midrib.curves.construction import Centring, Construction
+from midrib.curves.joining import EndRule
+from midrib.curves.radii import EndClearance, jumps_of
+from midrib.curves.stations import Skip
+from midrib.errors import GeometryTypeError
 from midrib.strip import Strip
 
 if TYPE_CHECKING:
@@ -56,10 +58,10 @@ class Curve:
         """(n, 2) the points Q, nearest to P of the auxiliary curve's points that P sees."""
         return self._radii.points[:, 2:4]
 
-    @cached_property
+    @property
     def points(self) -> "Floats":
-        """(n, 2) the points S halfway between P and Q."""
-        return (self.on_main + self.on_auxiliary) / 2.0
+        """(n, 2) the points S halfway between P and Q, or equally far from both curves."""
+        return self._path.middles
 
     @property
     def radii(self) -> "Floats":
@@ -104,11 +106,14 @@ def minimal_radii(
     spacing: float | None = None,
     count: int | None = None,
     percent: float | None = None,
-    vertices: bool = True,
+    vertices: bool | None = None,
+    tolerance: float | None = None,
     stations: "ArrayLike | None" = None,
     skip: Skip | None = None,
     ends: EndRule = "main",
     end_clearance: EndClearance = "proportional",
+    centring: Centring = "none",
+    mean: Mean | None = None,
 ) -> Curve:
     """Curve of minimal radii of a strip.
 
@@ -126,8 +131,12 @@ def minimal_radii(
         The interval is the main curve's length over ``count`` (Eq. 1).
     percent : float, optional
         The interval is so many percent of the main curve's length (Eq. 1).
-    vertices : bool, default True
-        The vertices of the main curve are stations too, as the paper recommends.
+    vertices : bool, optional
+        The vertices of the main curve are stations too, as the paper recommends: True unless
+        the curve is ``"centred"``, which needs no station at every vertex.
+    tolerance : float, optional
+        How far, in coordinate units, a centred curve may be between its points from the line on
+        which both curves are equally far; a 200th of the mean width unless given.
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
@@ -144,6 +153,16 @@ def minimal_radii(
         least as far from that end along the auxiliary curve as P is along the main one
         ("station"), or in proportion to the lengths of their first straight runs ("proportional");
         a length keeps Q that far from it at every station.
+    centring : {"none", "symmetric", "centred"}, default "none"
+        "none": the paper's curve. "symmetric": the mean of the curve from the main and the curve
+        from the auxiliary curve. "centred": S is moved along its radius until both curves are
+        equally far, and points are added in between within ``tolerance``: the trunk of the
+        medial axis between the two ends.
+    mean : {"radii", "proportional", "same-height"} or (dx, dy), optional
+        Which points are averaged for "symmetric": those of radii that cut off as much of the two
+        curves together ("radii", the default); in equal shares of the two lengths
+        ("proportional", Rhino's mean curve); at the same height along the strip, or along a
+        direction (dx, dy).
 
     Returns
     -------
@@ -189,10 +208,17 @@ def minimal_radii(
         kind = getattr(strip, "geom_type", type(strip).__name__)
         msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
         raise GeometryTypeError(msg)
-    check_ends(ends, end_clearance)
-    rule = station_rule(spacing, count, percent, vertices, stations, skip)
-    radii = draw_radii(strip.layout, rule, end_clearance)
-    if len(radii.points) == 0:
-        msg = "no station sees anything of the auxiliary curve"
-        raise InvalidAreaError(msg)
-    return Curve(strip, radii, join_middles(strip.layout, radii, ends))
+    construction = Construction(
+        spacing=spacing,
+        count=count,
+        percent=percent,
+        vertices=vertices,
+        tolerance=tolerance,
+        stations=stations,
+        skip=skip,
+        ends=ends,
+        end_clearance=end_clearance,
+        centring=centring,
+        mean=mean,
+    )
+    return Curve(strip, *construction.of(strip.layout))

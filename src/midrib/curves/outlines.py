@@ -129,6 +129,10 @@ class Outline:
         behind = (edge.start - start) % self.perimeter
         return max(min(ahead - edge.length, behind - cap), 0.0)
 
+    def has(self, end: End, arc: float) -> bool:
+        """Whether the shell at an arc length is in an end."""
+        return (arc - self.position(end)) % self.perimeter <= self.length(end)
+
     def length(self, end: End) -> float:
         """Length of an end: of its cap, or 0."""
         return self.between(end.place, end.other) if end.other != end.place else 0.0

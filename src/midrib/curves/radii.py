@@ -16,8 +16,6 @@ EndClearance: TypeAlias = Literal["station", "proportional"] | float | None
 COLLAPSED = 0.5  # a radius has collapsed into the shared end if E is less than half as far from it
 STRAIGHT = 2.0**-20  # a first segment goes on through vertices that bend by less than this
 JUMP_SLACK = 2.0**-20
-# Stations by default in an area that is very thin for its number of vertices.
-MOST_BY_WIDTH, MOST_BY_VERTEX = 256, 4
 # A radius is lopsided if Q sees the main curve nearer than P by this factor. Of 1.2, 1.5, 2 and 3
 # it gave the most centred lines on rivers, roads, verges and slopes.
 LOPSIDED = 1.5
@@ -64,8 +62,8 @@ class Radii(NamedTuple):
 def draw_radii(layout: Layout, rule: StationRule, clearance: EndClearance) -> Radii:
     """Place the stations on the main curve and draw the radii from them."""
     mesh = layout.mesh
-    most = MOST_BY_WIDTH + MOST_BY_VERTEX * (layout.main.arc.size + layout.auxiliary.arc.size)
-    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width, most)
+    n_vertices = layout.main.arc.size + layout.auxiliary.arc.size
+    stations = rule.on(layout.main, mesh.x, mesh.y, layout.mean_width, n_vertices)
     low, high = np.full(stations.arc.size, -np.inf), np.full(stations.arc.size, np.inf)
     if isinstance(clearance, int | float):
         if layout.shares_start:

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from midrib.errors import ParameterError
 from midrib.kernels.chain import Chain
-from midrib.kernels.stations import place_stations
+from midrib.kernels.stations import default_count, place_stations
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Skip", "StationRule", "Stations", "station_rule"]
+__all__ = ["Skip", "StationRule", "Stations"]
 
 SkipItem: TypeAlias = (
     Literal["bays"]
@@ -28,7 +28,6 @@ SkipItem: TypeAlias = (
 Skip: TypeAlias = SkipItem | Sequence[SkipItem]
 SAME_STATION = 2.0**-40  # of the main curve's length: stations nearer than this are one
 MOST_STATIONS = 50_000_000
-LEAST_COUNT = 2
 
 
 class Stations(NamedTuple):
@@ -103,18 +102,19 @@ class StationRule:
         self.skip_bays = "bays" in [item for item in items if isinstance(item, str)]
         self.skip = [item for item in items if not (isinstance(item, str) and item == "bays")]
 
-    def on(self, main: Chain, x: Floats, y: Floats, at_most: float, most: int) -> "Stations":
+    def on(
+        self, main: Chain, x: Floats, y: Floats, mean_width: float, n_vertices: int
+    ) -> "Stations":
         """Stations on one main curve, ascending; x and y are those of mesh vertices.
 
-        Without any rule for the interval, and no stations given, it is the largest commensurate
-        one (L / count) not above ``at_most``, or L / ``most`` where that is more.
+        Without any rule for the interval, and no stations given, it is L / ``default_count``.
 
         Raises
         ------
         ParameterError
             If there are none, or absurdly many.
         """
-        own = self.own(main.length, max(at_most, main.length / most))
+        own = self.own(main.length, mean_width, n_vertices)
         tolerance = SAME_STATION * main.length
         arc, points, segment, vertex = place_stations(
             own, self.vertices, tolerance, main.arc, main.vertex, x, y
@@ -127,9 +127,9 @@ class StationRule:
             raise ParameterError(msg)
         return placed
 
-    def own(self, length: float, at_most: float) -> Floats:
+    def own(self, length: float, mean_width: float, n_vertices: int) -> Floats:
         """Stations by interval and those given, on a curve of the given length."""
-        interval = self.interval(length, at_most)
+        interval = self.interval(length, mean_width, n_vertices)
         by_interval: Floats = np.empty(0)
         if interval is not None:
             n = np.floor(length / interval * (1.0 + SAME_STATION))
@@ -148,7 +148,7 @@ class StationRule:
             raise ParameterError(msg)
         return np.union1d(by_interval, self.stations)
 
-    def interval(self, length: float, at_most: float) -> float | None:
+    def interval(self, length: float, mean_width: float, n_vertices: int) -> float | None:
         """Interval on a curve of the given length, None if the rule has none."""
         if self.spacing is not None:
             return float(self.spacing)
@@ -158,7 +158,7 @@ class StationRule:
             return float(length * (self.percent / 100.0))
         if self.stations is not None:
             return None
-        return float(length / max(np.ceil(length / at_most), LEAST_COUNT))
+        return length / default_count(length, mean_width, n_vertices)
 
     def kept(self, stations: Floats, points: Floats) -> Bools:
         """Which stations ``skip`` leaves, bays apart: those take the radii to tell."""
@@ -166,18 +166,6 @@ class StationRule:
         for item in self.skip:
             keep &= ~dropped(cast("SkipItem", item), stations, points)
         return keep
-
-
-def station_rule(
-    spacing: float | None = None,
-    count: int | None = None,
-    percent: float | None = None,
-    vertices: bool = True,
-    stations: ArrayLike | None = None,
-    skip: Skip | None = None,
-) -> StationRule:
-    """Check the station options and return them as one rule."""
-    return StationRule(spacing, count, percent, vertices, stations, skip)
 
 
 def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:

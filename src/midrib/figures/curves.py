@@ -1,14 +1,15 @@
 """The curves behind the lines of ``collapse``: its strips and radii, to be drawn."""
 
 from collections.abc import Iterator
-from inspect import signature
 from typing import TYPE_CHECKING, Any
 
 import shapely
+from shapely import LineString
 
+from midrib.curves.aftercare import aftercare, tend
 from midrib.curves.collapse import Log, valid_parts
-from midrib.curves.methods import minimal_radii_finder
-from midrib.curves.minimal_radii import Curve, minimal_radii
+from midrib.curves.methods import construction_of_collapse
+from midrib.curves.minimal_radii import Curve
 from midrib.errors import MidribError
 from midrib.geodesy import degree_lengths
 from midrib.ragged import rings_of_area
@@ -19,24 +20,25 @@ if TYPE_CHECKING:
 
 __all__ = ["curves_of"]
 
-# Options of collapse that differ from those of minimal_radii.
-DEFAULTS = {
-    name: option.default
-    for name, option in signature(minimal_radii_finder).parameters.items()
-    if option.kind is option.KEYWORD_ONLY
-}
-
 
 def curves_of(
     areas: "Geometries", along: "Geometries | None", geographic: bool, options: dict[str, Any]
-) -> Iterator[tuple[int, Curve]]:
-    """Position of the area and curve of minimal radii, of each part that is not refused."""
+) -> Iterator[tuple[int, Curve, LineString]]:
+    """Position of the area, curve of minimal radii and line, of each part that is not refused.
+
+    The line is the curve's, after its after-care.
+    """
+    options = dict(options)
+    care = aftercare(options.pop("simplify", None), options.pop("smooth", False))
+    construction = construction_of_collapse(**options)
     for index, _, polygon in valid_parts(areas, Log(None, strict=False)):
         scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
         guide = None if along is None else along[index]
         try:
             layout = divide(*rings_of_area(polygon), scale, along=guide)
             strip = Strip._of_layout(layout, polygon)  # has its scale
-            yield index, minimal_radii(strip, **(DEFAULTS | options))
+            curve = Curve(strip, *construction.of(layout))
         except MidribError:
             continue
+        (line,) = tend([curve.line], [polygon], care, geographic=geographic)
+        yield index, curve, line or curve.line

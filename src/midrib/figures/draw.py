@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
+from shapely import LineString
 
 from midrib.curves.collapse import as_array
 from midrib.errors import MissingDependencyError, ParameterError
@@ -91,9 +92,9 @@ def draw_collapse(
     areas, guides = as_array(areas).ravel(), None if along is None else as_array(along).ravel()
     paper = sheet_for(areas, geographic, width)
     strokes, drawn = Strokes(), np.zeros(areas.size, dtype=np.bool_)
-    for index, curve in curves_of(areas, guides, geographic, options):
+    for index, curve, line in curves_of(areas, guides, geographic, options):
         drawn[index] = True
-        add_strokes(strokes, curve, paper)
+        add_strokes(strokes, curve, line, paper)
     paper.fill(areas[drawn], FILL, OUTLINE, "area")
     paper.fill(areas[~drawn], REFUSED, OUTLINE, "refused")
     paper.stroke(strokes.radii, RADIUS, 0.12, "radii")
@@ -107,9 +108,9 @@ def draw_collapse(
     return paper.figure
 
 
-def add_strokes(strokes: Strokes, curve: "Curve", paper: Paper) -> None:
-    """Add what of a curve can be told apart on paper."""
-    strokes.line.append(shapely.get_coordinates(curve.line))
+def add_strokes(strokes: Strokes, curve: "Curve", line: LineString, paper: Paper) -> None:
+    """Add what of a curve and its line can be told apart on paper."""
+    strokes.line.append(shapely.get_coordinates(line))
     span = np.stack([curve.on_main, curve.on_auxiliary], axis=1)
     across = paper.millimetres(span[:, 1] - span[:, 0])
     across_middle = float(np.median(across))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from midrib.formats.reading import Geometries
     from midrib.types import Floats
 
-__all__ = ["Paper", "sheet_for"]
+__all__ = ["FONT", "INCH", "POINT", "TEXT", "Paper", "save", "sheet_for"]
 
 INCH, POINT = 25.4, 25.4 / 72.0  # millimetres
 FOOTER, MARGIN, ROW = 9.0, 4.0, 5.0  # millimetres
@@ -107,17 +107,22 @@ class Paper(NamedTuple):
         )
 
     def save(self, path: Path) -> None:
-        """Write the sheet; the same drawing gives the same bytes."""
-        from matplotlib import rc_context
+        """Write the sheet."""
+        save(self.figure, path)
 
-        kind = path.suffix.lower().removeprefix(".")
-        extra: dict[str, dict[str, Any]] = {
-            "svg": {"metadata": {"Date": None}},
-            "pdf": {"metadata": {"CreationDate": None}},
-            "png": {"pil_kwargs": {"optimize": True}},
-        }
-        with rc_context({"svg.hashsalt": "midrib"}):
-            self.figure.savefig(path, format=kind, dpi=DPI, **extra[kind])
+
+def save(figure: "Figure", path: Path) -> None:
+    """Write a figure; the same drawing gives the same bytes."""
+    from matplotlib import rc_context
+
+    kind = path.suffix.lower().removeprefix(".")
+    extra: dict[str, dict[str, Any]] = {
+        "svg": {"metadata": {"Date": None}},
+        "pdf": {"metadata": {"CreationDate": None}},
+        "png": {"pil_kwargs": {"optimize": True}},
+    }
+    with rc_context({"svg.hashsalt": "midrib"}):
+        figure.savefig(path, format=kind, dpi=DPI, **extra[kind])
 
 
 def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:

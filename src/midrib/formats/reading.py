@@ -1,6 +1,7 @@
 """Layers of vector files, read in batches of Arrow columns and shapely geometries."""
 
 import json
+import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, replace
@@ -93,7 +94,8 @@ def layer_names(path: Path) -> dict[str, str | None]:
     try:
         if path.suffix.lower() in PARQUET_ENDINGS:
             return {path.stem: geo_column(pq.read_schema(path).metadata, path).kind}
-        return {str(name): kind for name, kind in pyogrio.list_layers(path)}
+        with without_m():
+            return {str(name): kind for name, kind in pyogrio.list_layers(path)}
     except UNREADABLE:
         msg = f"IN {str(path)!r} cannot be read as a vector file"
         raise ParameterError(msg) from None
@@ -191,10 +193,13 @@ def open_vector(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
     # does not.
     pyogrio.set_gdal_config_options({"OGR_FLATGEOBUF_STREAM_BASE_IMPL": "YES"})
     options = {"KEEP_GEOM_COLUMNS": "NO"} if path.suffix.lower() == ".csv" else {}
-    count = pyogrio.read_info(path, layer=layer)["features"]
-    with pyogrio.open_arrow(
-        path, layer=layer, batch_size=batch_size, use_pyarrow=True, **options
-    ) as (meta, reader):
+    with ExitStack() as stack:
+        with without_m():
+            count = pyogrio.read_info(path, layer=layer)["features"]
+            reading = pyogrio.open_arrow(
+                path, layer=layer, batch_size=batch_size, use_pyarrow=True, **options
+            )
+            meta, reader = stack.enter_context(reading)
         geometry = meta["geometry_name"] or "wkb_geometry"
         if geometry not in reader.schema.names:
             msg = f"layer {layer!r} of IN {str(path)!r} has no geometries, expected areas"
@@ -210,6 +215,14 @@ def open_vector(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
             count if count >= 0 else None,
             iter(reader),
         )
+
+
+@contextmanager
+def without_m() -> Iterator[None]:
+    """Pass over pyogrio's warning that it has no names for kinds of geometry with M values."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", message="Measured")
+        yield
 
 
 def decoded(wkb: pa.Array) -> tuple[Geometries, dict[int, str]]:

@@ -7,7 +7,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import NamedTuple
 
-import numpy as np
 import pyarrow as pa
 import pyogrio
 import pyogrio.errors
@@ -19,6 +18,14 @@ from midrib.formats.geoparquet import write_parquet
 from midrib.formats.reading import Geometries
 
 __all__ = ["Features", "check_free", "staged", "write_layer"]
+
+# What pyogrio calls a kind of geometry, by whether it has Z and M.
+NAMES = {
+    (False, False): "{}",
+    (True, False): "{} Z",
+    (False, True): "Measured {}",
+    (True, True): "Measured 3D {}",
+}
 
 
 class Features(NamedTuple):
@@ -136,17 +143,17 @@ def uniform(geometries: Geometries, default: str) -> tuple[Geometries, str]:
     """Geometries of one kind and its name: single ones become multi where both occur."""
     there = geometries[~shapely.is_missing(geometries)]
     kinds = {geometry.geom_type for geometry in there}
-    heights = np.unique(shapely.has_z(there))
+    dimensions = set(zip(shapely.has_z(there), shapely.has_m(there), strict=True))
     if not kinds:
         return geometries, default
-    if len({kind.removeprefix("Multi") for kind in kinds}) > 1 or heights.size > 1:
+    if len({kind.removeprefix("Multi") for kind in kinds}) > 1 or len(dimensions) > 1:
         return geometries, "Unknown"
-    suffix = " Z" if heights[0] else ""
+    name = NAMES[dimensions.pop()]
     if len(kinds) == 1:
-        return geometries, kinds.pop() + suffix
+        return geometries, name.format(kinds.pop())
     multi = geometries.copy()
     build = shapely.multilinestrings if "LineString" in kinds else shapely.multipolygons
     for i, geometry in enumerate(geometries):
         if geometry is not None and not geometry.geom_type.startswith("Multi"):
             multi[i] = build([geometry])
-    return multi, max(kinds, key=len) + suffix
+    return multi, name.format(max(kinds, key=len))

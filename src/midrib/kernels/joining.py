@@ -10,7 +10,7 @@ from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import Beads, join_points
 from midrib.types import Floats, Ints
 
-__all__ = ["join_middles"]
+__all__ = ["Joined", "cut_all_loops", "join_beads", "join_middles", "string_beads"]
 
 LOOP_ROUNDS = 8
 
@@ -21,6 +21,7 @@ class Joined(NamedTuple):
     points: Floats  # (m, 2)
     source: Ints  # (m,) bead that each one is, one past the beads at a crossing; -1 - v at vertex v
     loops: int  # how many were cut
+    beads: Floats  # (n, 2) the points that were joined
 
 
 @njit(entry=True)
@@ -48,13 +49,26 @@ def join_middles(
     -------
     Joined
         Beads count from the first end, or from the first middle if there are no ends.
-
-    Notes
-    -----
-    A path that has been cut is joined again, which proves it: a cut may have moved it.
     """
     beads = string_beads(points, at, end, end_origin, end_at)
+    return join_beads(mesh, beads, scale_x, scale_y)
+
+
+@njit(entry=True)
+def join_beads(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> Joined:
+    """Join points by shortest paths inside the area; cut loops."""
     path, source = join_points(mesh, beads, scale_x, scale_y)
+    return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
+
+
+@njit()
+def cut_all_loops(
+    mesh: Mesh, beads: Beads, path: Floats, source: Ints, scale_x: float, scale_y: float
+) -> Joined:
+    """Return a path without loops.
+
+    A path that has been cut is joined again, which proves it: a cut may have moved it.
+    """
     loops = 0
     for _ in range(LOOP_ROUNDS):
         cut, row, found = cut_loops(path)
@@ -62,7 +76,7 @@ def join_middles(
             break
         loops += found
         path, source = join_again(mesh, beads, cut, row, source, scale_x, scale_y)
-    return Joined(path, source, loops)
+    return Joined(path, source, loops, beads.point)
 
 
 @njit()

@@ -26,6 +26,7 @@ __all__ = [
     "contains",
     "is_beyond",
     "mesh_rings",
+    "next_boundary_side",
     "pull_inside",
     "split_side",
 ]
@@ -53,6 +54,15 @@ class Triangulated(NamedTuple):
     side_of_segment: Ints
     vertex_of: Ints
     touches: Ints
+
+
+@njit()
+def next_boundary_side(mesh: Mesh, e: int) -> int:
+    """Return the boundary side that follows e around the inside: the other end of its fan."""
+    e = next_side(e)
+    while mesh.twin[e] >= 0:
+        e = next_side(mesh.twin[e])
+    return e
 
 
 @njit()

@@ -27,7 +27,17 @@ from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
-__all__ = ["Beads", "join_points", "triangle_towards", "walk"]
+__all__ = [
+    "Beads",
+    "Search",
+    "find_sleeve",
+    "join_points",
+    "locate_from",
+    "new_search",
+    "pull_tight",
+    "triangle_towards",
+    "walk",
+]
 
 
 class Beads(NamedTuple):
@@ -37,6 +47,25 @@ class Beads(NamedTuple):
     origin: Floats  # (n, 2) points of the boundary that see them
     side: Ints  # (n,) the boundary side that each origin is on
     vertex: Ints  # (n,) the mesh vertex that it is, or -1
+
+
+class Search(NamedTuple):
+    """Tables for ``find_sleeve``, kept from one search to the next, and the metric."""
+
+    scale_x: float
+    scale_y: float
+    entered: Ints  # for each triangle the side it was entered by; -1 between searches
+    cost: Floats
+    key: Floats
+    heap: Ints
+
+
+@njit()
+def new_search(mesh: Mesh, scale_x: float, scale_y: float) -> Search:
+    """Clean tables."""
+    m = mesh.tri.size
+    entered = np.full(m // 3, -1, np.intp)
+    return Search(scale_x, scale_y, entered, np.empty(m), np.empty(m), np.empty(m, np.intp))
 
 
 @njit()
@@ -85,19 +114,14 @@ def find_sleeve(
     py: float,
     qx: float,
     qy: float,
-    scale_x: float,
-    scale_y: float,
-    entered: Ints,
-    cost: Floats,
-    key: Floats,
-    heap: Ints,
+    search: Search,
 ) -> Ints:
     """Sides crossed on the way from triangle ``start`` to ``goal``, by the middles of sides.
 
     A*: the key of a side is the way so far and the straight distance left. ``goal`` may be -1:
-    then the triangle that holds q is looked for, and a sleeve to it returned. ``entered`` (-1 for
-    each triangle) comes in clean and is left clean.
+    then the triangle that holds q is looked for, and a sleeve to it returned.
     """
+    scale_x, scale_y, entered, cost, key, heap = search
     size = 0
     touched = np.empty(64, np.intp)
     n_touched = 0
@@ -250,12 +274,7 @@ def locate_from(
     qx: float,
     qy: float,
     near: int,
-    scale_x: float,
-    scale_y: float,
-    entered: Ints,
-    cost: Floats,
-    key: Floats,
-    heap: Ints,
+    search: Search,
 ) -> tuple[int, float, float]:
     """Return the triangle that holds q, seen from p on ``side`` (or at ``vertex``).
 
@@ -274,7 +293,7 @@ def locate_from(
             if is_inside:
                 return t, x, y
     t = side // 3
-    sleeve = find_sleeve(mesh, t, -1, px, py, qx, qy, scale_x, scale_y, entered, cost, key, heap)
+    sleeve = find_sleeve(mesh, t, -1, px, py, qx, qy, search)
     if sleeve.size > 0:
         t = mesh.twin[sleeve[-1]] // 3
     if contains(mesh, t, qx, qy):
@@ -304,9 +323,8 @@ def join_points(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> tup
     holes the sleeve is the one shortest by the middles of its doors. A point that is outside by
     more than rounding is left out.
     """
-    n, m = beads.side.size, mesh.tri.size
-    entered = np.full(m // 3, -1, np.intp)
-    cost, key, heap = np.empty(m), np.empty(m), np.empty(m, np.intp)
+    n = beads.side.size
+    search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((2 * n + 16, 2)), np.empty(2 * n + 16, np.intp)
     count, t = 0, -1
     from_x, from_y = 0.0, 0.0
@@ -326,31 +344,12 @@ def join_points(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> tup
                 qx,
                 qy,
                 end,
-                scale_x,
-                scale_y,
-                entered,
-                cost,
-                key,
-                heap,
+                search,
             )
             if end < 0:
                 continue
             if t >= 0:
-                sleeve = find_sleeve(
-                    mesh,
-                    t,
-                    end,
-                    from_x,
-                    from_y,
-                    qx,
-                    qy,
-                    scale_x,
-                    scale_y,
-                    entered,
-                    cost,
-                    key,
-                    heap,
-                )
+                sleeve = find_sleeve(mesh, t, end, from_x, from_y, qx, qy, search)
                 turns = pull_tight(mesh, sleeve, from_x, from_y, qx, qy)
         if count + turns.size + 1 > source.size:
             room = 2 * (count + turns.size + 1)

@@ -5,7 +5,31 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["place_stations"]
+__all__ = ["default_count", "even_stations", "place_stations"]
+
+LEAST_COUNT = 2
+# Intervals by default in an area that is very thin for its number of vertices.
+MOST_BY_WIDTH, MOST_BY_VERTEX = 256, 4
+
+
+@njit(entry=True)
+def default_count(length: float, mean_width: float, n_vertices: int) -> int:
+    """Return the number of intervals of a curve: the smallest that makes them a mean width or less.
+
+    But at least two, and no more than 256 and four for each vertex of both curves.
+    """
+    at_most = max(mean_width, length / (MOST_BY_WIDTH + MOST_BY_VERTEX * n_vertices))
+    return max(int(np.ceil(length / at_most)), LEAST_COUNT)
+
+
+@njit()
+def even_stations(length: float, count: int) -> Floats:
+    """Return the stations 0 to ``length`` of so many intervals."""
+    stations = np.empty(count + 1)
+    for i in range(count + 1):
+        # i (L / n) rather than i d: commensurate stations stay so when the curve is reversed.
+        stations[i] = i * (length / count)
+    return stations
 
 
 @njit()

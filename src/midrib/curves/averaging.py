@@ -1,0 +1,134 @@
+"""The mean of two curves: the one drawn from the main curve and the one from the auxiliary.
+
+     main       ------------------
+     one curve   . . . . . . . . .      Points of both curves that have the same parameter are
+     mean       ==================      averaged. What the parameter is makes the three means.
+     other      .  .  .  .  .  .  .
+     auxiliary  ------------------
+
+proportional   share of the curve's own length: Rhino's mean curve
+same-height    how far along a direction: walls of towers
+radii          main curve plus auxiliary curve that a radius cuts off: it belongs to both banks
+               alike, so that the mean of a wedge's two curves lies on its bisector
+"""
+
+from typing import Literal, TypeAlias
+
+import numpy as np
+
+from midrib.curves.joining import Path, heights_of
+from midrib.curves.radii import Radii
+from midrib.errors import InvalidAreaError, ParameterError
+from midrib.kernels.joining import join_beads
+from midrib.kernels.paths import Beads
+from midrib.layout import Layout
+from midrib.types import Floats
+
+__all__ = ["Mean", "average", "check_mean"]
+
+Mean: TypeAlias = Literal["proportional", "same-height", "radii"] | tuple[float, float]
+MEANS = ("proportional", "same-height", "radii")
+
+
+def check_mean(mean: object, centring: str) -> None:
+    """Refuse means that do not exist, or that nothing is averaged for."""
+    if mean is None:
+        return
+    if centring != "symmetric":
+        msg = f"mean goes with centring='symmetric', found centring={centring!r}"
+        raise ParameterError(msg)
+    is_direction = (
+        isinstance(mean, tuple | list)
+        and len(mean) == 2
+        and all(isinstance(value, int | float) for value in mean)
+        and 0.0 < np.hypot(*mean) < np.inf
+    )
+    if not is_direction and mean not in MEANS:
+        msg = (
+            f"mean is {mean!r}, expected 'proportional', 'same-height', 'radii' or a direction "
+            "(dx, dy) for the same height along it"
+        )
+        raise ParameterError(msg)
+
+
+def average(
+    layout: Layout, one: tuple[Radii, Path], other: tuple[Radii, Path], mean: Mean | None
+) -> Path:
+    """Mean of two curves of one strip, joined inside the area without loops."""
+    (radii, path), (other_radii, other_path) = one, other
+    if mean in (None, "radii"):
+        at, other_at = cut_off(layout, radii, path), cut_off(layout, other_radii, other_path)
+    elif mean == "proportional":
+        at, other_at = share_of_length(layout, path), share_of_length(layout, other_path)
+    else:
+        along = upwards(layout) if isinstance(mean, str) else np.asarray(mean, dtype=np.float64)
+        at, other_at = height_of(layout, path, along), height_of(layout, other_path, along)
+    both = np.union1d(at, other_at)
+    points = (sampled(path.points, at, both) + sampled(other_path.points, other_at, both)) / 2.0
+    height = None
+    if path.height is not None and other_path.height is not None:
+        z, other_z = path.height[:, None], other_path.height[:, None]
+        height = (sampled(z, at, both)[:, 0] + sampled(other_z, other_at, both)[:, 0]) / 2.0
+    # The search for a mean begins at the foot of the radius next to it.
+    near = np.searchsorted(at[path.on_radii], np.concatenate([both[:1], both, both[-1:]]))
+    near = path.radius[path.on_radii[np.minimum(near, path.on_radii.size - 1)]]
+    beads = Beads(points, radii.points[near, :2].copy(), radii.at[near, 1], radii.at[near, 2])
+    joined, source, loops, _ = join_beads(layout.mesh, beads, *layout.scale)
+    if joined.shape[0] < 2:
+        msg = "the mean of the two curves is one point; a line needs two"
+        raise InvalidAreaError(msg)
+    return Path(
+        joined,
+        heights_of(layout, joined, source, height),
+        np.full(len(joined), -1),
+        path.middles,
+        path.loops + other_path.loops + loops,
+    )
+
+
+def sampled(points: Floats, at: Floats, where: Floats) -> Floats:
+    """Points of a chain at parameters, between its own ends: several may share a parameter."""
+    inner = np.column_stack([np.interp(where, at, column) for column in points.T])
+    return np.concatenate([points[:1], inner, points[-1:]])
+
+
+def arc_of(layout: Layout, path: Path) -> Floats:
+    """Arc length at every point of a path."""
+    steps = np.diff(path.points, axis=0) * layout.scale
+    return np.concatenate([[0.0], np.cumsum(np.hypot(*steps.T))])
+
+
+def share_of_length(layout: Layout, path: Path) -> Floats:
+    """Share of the whole length at every point of a path."""
+    arc = arc_of(layout, path)
+    share: Floats = arc / arc[-1]
+    return share
+
+
+def upwards(layout: Layout) -> Floats:
+    """Direction from the middle of the strip's start to the middle of its end."""
+    along: Floats = (layout.middle.point[1] - layout.middle.point[0]) * layout.scale
+    return along
+
+
+def height_of(layout: Layout, path: Path, along: Floats) -> Floats:
+    """How far along a direction every point of a path is; never back again."""
+    heights = (path.points * layout.scale) @ along
+    return np.maximum.accumulate(heights if heights[-1] >= heights[0] else -heights)
+
+
+def cut_off(layout: Layout, radii: Radii, path: Path) -> Floats:
+    """Length of both banks up to the radius of every point of a path; never back again.
+
+    Of points between radii in proportion to the way; at the ends nothing, and all of it.
+    """
+    cut = radii.stations[radii.station] + radii.arc
+    known = path.on_radii
+    arc = arc_of(layout, path)
+    at, value = arc[known], cut[path.radius[known]]
+    if not known[0]:
+        at, value = np.append(0.0, at), np.append(0.0, value)
+    if not known[-1]:
+        whole = layout.main.length + layout.auxiliary.length
+        at, value = np.append(at, arc[-1]), np.append(value, whole)
+    return np.maximum.accumulate(np.interp(arc, at, value))

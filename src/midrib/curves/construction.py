@@ -1,0 +1,102 @@
+"""How a curve is made from a strip: every option in one place, checked once, used many times."""
+
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from midrib.curves.averaging import Mean, average, check_mean
+from midrib.curves.joining import EndRule, check_ends, join_middles
+from midrib.curves.radii import EndClearance, Radii, draw_radii
+from midrib.curves.stations import Skip, StationRule
+from midrib.errors import InvalidAreaError, ParameterError
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from midrib.curves.joining import Path
+    from midrib.layout import Layout
+
+__all__ = ["CENTRED_WITHIN", "Centring", "Construction"]
+
+Centring: TypeAlias = Literal["none", "symmetric", "centred"]
+CENTRINGS = ("none", "symmetric", "centred")
+CENTRED_WITHIN = 1.0 / 200.0  # of the mean width, unless a tolerance is given
+
+
+class Construction:
+    """The construction of a curve; see ``minimal_radii`` for what the options mean.
+
+    Raises
+    ------
+    ParameterError
+        If an option has a value it cannot have.
+    """
+
+    def __init__(
+        self,
+        *,
+        spacing: float | None = None,
+        count: int | None = None,
+        percent: float | None = None,
+        vertices: bool | None = None,
+        tolerance: float | None = None,
+        stations: "ArrayLike | None" = None,
+        skip: Skip | None = None,
+        ends: EndRule = "main",
+        end_clearance: EndClearance = "proportional",
+        centring: Centring = "none",
+        mean: Mean | None = None,
+    ) -> None:
+        check_ends(ends, end_clearance)
+        check_centring(centring, tolerance)
+        check_mean(mean, centring)
+        if vertices is None:
+            vertices = centring != "centred"  # the trunk is probed between radii anyway
+        self.rule = StationRule(spacing, count, percent, vertices, stations, skip)
+        self.ends, self.end_clearance = ends, end_clearance
+        self.centring, self.tolerance, self.mean = centring, tolerance, mean
+
+    def of(self, layout: "Layout") -> "tuple[Radii, Path]":
+        """Radii and the chain that is made from them.
+
+        Raises
+        ------
+        InvalidAreaError
+            If no station sees anything of the auxiliary curve, or the curve is one point.
+        """
+        radii = self.radii(layout)
+        if self.centring == "symmetric":
+            other = layout.swapped()
+            from_other = self.radii(other)
+            return radii, average(
+                layout,
+                (radii, join_middles(layout, radii, self.ends)),
+                (from_other, join_middles(other, from_other, self.ends)),
+                self.mean,
+            )
+        if self.centring == "centred":
+            within = CENTRED_WITHIN * layout.mean_width
+            within = within if self.tolerance is None else float(self.tolerance)
+            return radii, join_middles(layout, radii, self.ends, centred_within=within)
+        return radii, join_middles(layout, radii, self.ends)
+
+    def radii(self, layout: "Layout") -> Radii:
+        """Radii from a layout's main curve."""
+        radii = draw_radii(layout, self.rule, self.end_clearance)
+        if len(radii.points) == 0:
+            msg = "no station of the main curve sees anything of the auxiliary curve"
+            raise InvalidAreaError(msg)
+        return radii
+
+
+def check_centring(centring: Any, tolerance: Any) -> None:
+    """Refuse ways of centring that do not exist."""
+    if centring not in CENTRINGS:
+        msg = f"centring is {centring!r}, expected 'none', 'symmetric' or 'centred'"
+        raise ParameterError(msg)
+    if tolerance is None:
+        return
+    if not isinstance(tolerance, int | float) or not 0.0 <= tolerance < float("inf"):
+        msg = f"tolerance is {tolerance!r}, expected a length of 0 or more"
+        raise ParameterError(msg)
+    if centring != "centred":
+        msg = f"tolerance goes with centring='centred', found centring={centring!r}"
+        raise ParameterError(msg)

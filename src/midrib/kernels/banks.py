@@ -1,0 +1,212 @@
+r"""Banks: the two sides of an area, and how much nearer a point is to the one than to the other.
+
+x       point inside the area
+m, a    nearest points to x of the main and of the auxiliary bank
+lean    |xm| - |xa|: negative nearer to the main bank, zero in the middle
+
+    auxiliary  -----a-----------
+                    |
+                    x               lean < 0: x moves towards a, at most as far as m is, and so
+                    m\              neither leaves the area nor passes through a wall
+    main       -------\---------
+
+Coordinates are in lengths: scale_x x, scale_y y of those of the mesh.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.boxtree import DEPTH, box_tree
+from midrib.kernels.chain import TIE_OF_COORDINATE, Chain
+from midrib.kernels.clearance import nearest_of
+from midrib.kernels.islands import Loops
+from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.triangulation import next_side
+from midrib.types import Bools, Floats, Ints
+
+__all__ = ["Banks", "banks_of", "lean_at", "level_between", "level_from", "way_to_level"]
+
+LEVEL = 2.0**-42  # of the width: less lean than this is rounding
+ROUNDS = 64  # bisection alone needs 53
+STEPS = 24
+SAFE = 0.875  # of the distance to the nearer bank
+
+
+class Bank(NamedTuple):
+    """Segments of one side: vertices, whether each goes on to the next, boxes."""
+
+    x: Floats
+    y: Floats
+    goes_on: Bools
+    boxes: Floats
+
+
+class Banks(NamedTuple):
+    """Both sides of an area, and tables to work in."""
+
+    main: Bank
+    auxiliary: Bank
+    slack: float  # lean that counts as none: that of rounding, or as much as is asked for
+    last: Ints  # (2,) the segments that were nearest last time: the next point is not far
+    stack: Ints
+
+
+class Lean(NamedTuple):
+    """How far a point is from both banks, and the nearest points."""
+
+    value: float  # to_main - to_auxiliary
+    to_main: float
+    to_auxiliary: float
+    main_x: float
+    main_y: float
+    auxiliary_x: float
+    auxiliary_y: float
+
+
+@njit()
+def bank_of(
+    mesh: Mesh, chain: Chain, loops: Loops, is_main: bool, scale_x: float, scale_y: float
+) -> Bank:
+    """Bank of one curve and of the islands that go with it; O(n)."""
+    n = chain.vertex.size
+    size = n
+    for k in range(loops.is_main.size):
+        if loops.is_main[k] == is_main:
+            size += loops.start[k + 1] - loops.start[k] + 1
+    x, y, goes_on = np.empty(size), np.empty(size), np.ones(size, np.bool_)
+    for i in range(n):
+        x[i], y[i] = mesh.x[chain.vertex[i]] * scale_x, mesh.y[chain.vertex[i]] * scale_y
+    goes_on[n - 1] = False
+    for k in range(loops.is_main.size):
+        if loops.is_main[k] != is_main:
+            continue
+        for i in range(loops.start[k], loops.start[k + 1]):
+            v = mesh.tri[loops.side[i]]
+            x[n], y[n] = mesh.x[v] * scale_x, mesh.y[v] * scale_y
+            n += 1
+        v = mesh.tri[next_side(loops.side[loops.start[k + 1] - 1])]
+        x[n], y[n], goes_on[n] = mesh.x[v] * scale_x, mesh.y[v] * scale_y, False
+        n += 1
+    return Bank(x, y, goes_on, box_tree(x, y))
+
+
+@njit()
+def banks_of(
+    mesh: Mesh,
+    main: Chain,
+    auxiliary: Chain,
+    loops: Loops,
+    slack: float,
+    scale_x: float,
+    scale_y: float,
+) -> Banks:
+    """Both banks of an area; less lean than ``slack`` (a length) is none. O(n)."""
+    largest = 0.0
+    for v in range(mesh.x.size):
+        largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
+    return Banks(
+        bank_of(mesh, main, loops, True, scale_x, scale_y),
+        bank_of(mesh, auxiliary, loops, False, scale_x, scale_y),
+        max(slack, TIE_OF_COORDINATE * largest),
+        np.zeros(2, np.intp),
+        np.empty(DEPTH, np.intp),
+    )
+
+
+@njit(inline=True)
+def nearest_on_bank(
+    bank: Bank, x: float, y: float, hint: int, stack: Ints
+) -> tuple[int, float, float, float]:
+    """Nearest point of a bank: segment, distance, x and y."""
+    j, share, squared = nearest_of(x, y, bank.x, bank.y, bank.goes_on, bank.boxes, hint, stack)
+    qx = bank.x[j] + share * (bank.x[j + 1] - bank.x[j])
+    qy = bank.y[j] + share * (bank.y[j + 1] - bank.y[j])
+    return j, np.sqrt(squared), qx, qy
+
+
+@njit(inline=True)
+def lean_at(banks: Banks, x: float, y: float) -> Lean:
+    """Lean of a point; O(log n) near the banks."""
+    last, stack = banks.last, banks.stack
+    last[0], to_main, mx, my = nearest_on_bank(banks.main, x, y, last[0], stack)
+    last[1], to_auxiliary, ax, ay = nearest_on_bank(banks.auxiliary, x, y, last[1], stack)
+    return Lean(to_main - to_auxiliary, to_main, to_auxiliary, mx, my, ax, ay)
+
+
+@njit()
+def is_level(lean: Lean, slack: float) -> bool:
+    """Whether both banks are equally far, but for rounding or for as much as is allowed."""
+    return abs(lean.value) <= max(LEVEL * (lean.to_main + lean.to_auxiliary), slack)
+
+
+@njit()
+def slope_along(lean: Lean, x: float, y: float, ux: float, uy: float) -> float:
+    """How fast lean grows from x along the vector u; between -2 |u| and 2 |u|."""
+    slope = 0.0
+    if lean.to_main > 0.0:
+        slope += (ux * (x - lean.main_x) + uy * (y - lean.main_y)) / lean.to_main
+    if lean.to_auxiliary > 0.0:
+        slope -= (ux * (x - lean.auxiliary_x) + uy * (y - lean.auxiliary_y)) / lean.to_auxiliary
+    return slope
+
+
+@njit()
+def level_between(
+    banks: Banks, px: float, py: float, qx: float, qy: float, t: float
+) -> tuple[float, float]:
+    """Return a level point on the segment from p, nearer to main, to q, nearer to the auxiliary.
+
+    Newton's steps from the share t, halving where they leave what is known to hold the point:
+    one step is exact between two straight banks.
+    """
+    ux, uy = qx - px, qy - py
+    low, high = 0.0, 1.0
+    x, y = px, py
+    for _ in range(ROUNDS):
+        x, y = px + t * ux, py + t * uy
+        lean = lean_at(banks, x, y)
+        if is_level(lean, banks.slack):
+            break
+        if lean.value < 0.0:
+            low = t
+        else:
+            high = t
+        slope = slope_along(lean, x, y, ux, uy)
+        new = t - lean.value / slope if slope > 0.0 else low
+        t = new if low < new < high else (low + high) / 2.0
+    return x, y
+
+
+@njit()
+def way_to_level(lean: Lean, x: float, y: float) -> tuple[float, float, float]:
+    """Return the unit vector to the farther bank and how far along it x is level, about."""
+    fx, fy, far = lean.main_x, lean.main_y, lean.to_main
+    if lean.value < 0.0:
+        fx, fy, far = lean.auxiliary_x, lean.auxiliary_y, lean.to_auxiliary
+    ux, uy = (fx - x) / far, (fy - y) / far
+    slope = abs(slope_along(lean, x, y, ux, uy))
+    return ux, uy, abs(lean.value) / slope if slope > 0.0 else np.inf
+
+
+@njit()
+def level_from(banks: Banks, lean: Lean, x: float, y: float) -> tuple[bool, float, float]:
+    """Move a point towards the farther bank until it is level; whether it came to be, and where.
+
+    Never farther at once than the nearer bank is: so it stays on its side of every wall.
+    """
+    for _ in range(STEPS):
+        if is_level(lean, banks.slack):
+            return True, x, y
+        ux, uy, step = way_to_level(lean, x, y)
+        step = min(step, SAFE * min(lean.to_main, lean.to_auxiliary))
+        px, py, was = x, y, lean.value
+        x, y = x + step * ux, y + step * uy
+        lean = lean_at(banks, x, y)
+        if (lean.value < 0.0) != (was < 0.0) and not is_level(lean, banks.slack):
+            if was > 0.0:
+                px, py, x, y = x, y, px, py
+            x, y = level_between(banks, px, py, x, y, 0.5)
+            return True, x, y
+    return False, x, y

@@ -1,0 +1,169 @@
+r"""Islands: which of the two banks each hole of an area goes with.
+
+A line that passes an island leaves it on one side, so there it runs in a channel between the
+island and the bank on the other side: the island is part of the bank that it lies towards.
+
+    auxiliary --------------------
+                 __
+      path ..   /__\  island  ..       the island lies between the path and the auxiliary curve,
+             ..............            so it goes with that
+    main      --------------------
+
+A hole that touches a curve goes with it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.boxtree import DEPTH, LEAF, box_tree
+from midrib.kernels.chain import Chain
+from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh, next_boundary_side
+from midrib.kernels.predicates import orient
+from midrib.kernels.triangulation import next_side
+from midrib.types import Bools, Floats, Ints
+
+__all__ = ["Loops", "has_islands", "loops_of"]
+
+NOBODY, MAIN, AUXILIARY = 0, 1, 2
+INTO = 2.0**-10  # of a side: how far inside its corner an island is looked at
+
+
+class Loops(NamedTuple):
+    """Boundary of the holes: sides, loop by loop, where each loop starts, whose each loop is."""
+
+    side: Ints
+    start: Ints  # (k + 1,)
+    is_main: Bools  # (k,) else it is the auxiliary curve's
+
+
+@njit()
+def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
+    """Whether there is boundary besides the curves and what joins them along the shell."""
+    sides = 0
+    for e in range(mesh.tri.size):
+        if mesh.twin[e] < 0:
+            sides += 1
+    first = e = main.side[0]
+    on_shell = 1
+    e = next_boundary_side(mesh, e)
+    while e != first:
+        on_shell += 1
+        e = next_boundary_side(mesh, e)
+    return sides > on_shell or on_shell > main.side.size + auxiliary.side.size
+
+
+@njit()
+def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
+    """Return the islands and touching holes of an area, by the bank that each goes with.
+
+    O(n log n) for islands that are small against the area.
+    """
+    owner = np.full(mesh.tri.size, -1, np.int8)
+    for e in main.side:
+        owner[e] = MAIN
+    for e in auxiliary.side:
+        owner[e] = AUXILIARY
+    side, start = np.empty(mesh.tri.size, np.intp), np.zeros(mesh.tri.size, np.intp)
+    is_main = np.empty(mesh.tri.size, np.bool_)
+    count, loops = 0, 0
+    # 1. Along the shell: what lies between two sides of one curve is a hole that touches it; what
+    #    lies between the two curves is a cap.
+    first = e = main.side[0]
+    last = MAIN
+    while True:
+        e = next_boundary_side(mesh, e)
+        if owner[e] > 0:
+            if owner[e] != last:
+                count = start[loops]
+            elif count > start[loops]:
+                is_main[loops], start[loops + 1] = last == MAIN, count
+                loops += 1
+            last = owner[e]
+        else:
+            side[count], owner[e] = e, NOBODY
+            count += 1
+        if e == first:
+            break
+    count = start[loops]
+    # 2. Rings of their own.
+    ring_x, ring_y = ring_beside(mesh, path, auxiliary)
+    boxes = box_tree(ring_x, ring_y)
+    is_long_in_x = bool(np.ptp(ring_x) >= np.ptp(ring_y))
+    stack = np.empty(DEPTH, np.intp)
+    for e in range(mesh.tri.size):
+        if mesh.twin[e] >= 0 or owner[e] >= 0:
+            continue
+        f = e
+        while owner[f] < 0:
+            side[count], owner[f] = f, NOBODY
+            count += 1
+            f = next_boundary_side(mesh, f)
+        x, y = point_of_hole(mesh, side[start[loops] : count])
+        is_main[loops] = not is_around(x, y, ring_x, ring_y, boxes, is_long_in_x, stack)
+        loops += 1
+        start[loops] = count
+    return Loops(side[:count], start[: loops + 1], is_main[:loops])
+
+
+@njit()
+def ring_beside(mesh: Mesh, path: Floats, auxiliary: Chain) -> tuple[Floats, Floats]:
+    """Return the closed ring along the path and back along the auxiliary curve."""
+    n, m = path.shape[0], auxiliary.vertex.size
+    x, y = np.empty(n + m + 1), np.empty(n + m + 1)
+    x[:n], y[:n] = path[:, 0], path[:, 1]
+    for i in range(m):
+        v = auxiliary.vertex[m - 1 - i]
+        x[n + i], y[n + i] = mesh.x[v], mesh.y[v]
+    x[n + m], y[n + m] = x[0], y[0]
+    return x, y
+
+
+@njit()
+def point_of_hole(mesh: Mesh, side: Ints) -> tuple[float, float]:
+    """Return a point of the hole that these sides bound, just inside its leftmost vertex."""
+    n, at = side.size, 0
+    for i in range(n):
+        v, w = mesh.tri[side[i]], mesh.tri[side[at]]
+        if mesh.x[v] < mesh.x[w] or (mesh.x[v] == mesh.x[w] and mesh.y[v] < mesh.y[w]):
+            at = i
+    v, a, b = mesh.tri[side[at]], mesh.tri[next_side(side[at])], mesh.tri[side[at - 1]]
+    # As far along both sides as the shorter one allows, so that the angle is halved, about.
+    u = max(abs(mesh.x[a] - mesh.x[v]), abs(mesh.y[a] - mesh.y[v]))
+    w = max(abs(mesh.x[b] - mesh.x[v]), abs(mesh.y[b] - mesh.y[v]))
+    s, t = INTO * min(u, w) / u, INTO * min(u, w) / w
+    x = mesh.x[v] + (s * (mesh.x[a] - mesh.x[v]) + t * (mesh.x[b] - mesh.x[v]))
+    return x, mesh.y[v] + (s * (mesh.y[a] - mesh.y[v]) + t * (mesh.y[b] - mesh.y[v]))
+
+
+@njit()
+def is_around(
+    px: float, py: float, x: Floats, y: Floats, boxes: Floats, is_long_in_x: bool, stack: Ints
+) -> bool:
+    """Whether a closed ring winds around p, by the crossings of a ray across its longer axis."""
+    leaves, m = boxes.shape[0] // 2, x.size - 1
+    is_inside, depth = False, 1
+    stack[0] = 1
+    along = 0 if is_long_in_x else 1
+    at, over = (px, py) if is_long_in_x else (py, px)
+    while depth > 0:
+        depth -= 1
+        node = stack[depth]
+        if boxes[node, along] > at or boxes[node, along + 2] < at:
+            continue
+        if boxes[node, 3 - along] < over:
+            continue
+        if node < leaves:
+            stack[depth], stack[depth + 1] = 2 * node, 2 * node + 1
+            depth += 2
+            continue
+        for j in range((node - leaves) * LEAF, min((node - leaves) * LEAF + LEAF, m)):
+            a, b = (x[j], x[j + 1]) if is_long_in_x else (y[j], y[j + 1])
+            if (a <= at) == (b <= at):
+                continue
+            turn = orient(x[j], y[j], x[j + 1], y[j + 1], px, py)
+            # The ray meets the segment if p lies on its near side.
+            if (turn < 0.0) == ((a < b) == is_long_in_x):
+                is_inside = not is_inside
+    return is_inside
