@@ -12,6 +12,7 @@ from shapely import LineString, Polygon, box
 from shapely.affinity import scale
 
 from midrib import Joint, collapse, split
+from midrib.curves.meeting import Chain, nearest_on
 from midrib.errors import ParameterError
 from midrib.shared_edges import find_shared_edges, rounding_of
 
@@ -267,6 +268,67 @@ def test_areas_without_neighbours_are_as_without(areas: list[Polygon | None]) ->
     lines, joints = connected(areas)
     assert joints == []
     assert list(lines) == list(collapse(areas))
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"simplify": "10%"}, {"simplify": 2.0}, {"smooth": True}, {"simplify": "5%", "smooth": True}],
+)
+def test_aftercare_keeps_joints(options: dict[str, Any]) -> None:
+    areas = [*river(2, 15.0, 12, 6), *crossing(), box(10, 290, 60, 300)]
+    _, plain = connected(areas)
+    lines, joints = connected(areas, **options)
+    assert [(j.index, j.other, j.kind) for j in joints] == [
+        (j.index, j.other, j.kind) for j in plain
+    ]
+    for joint in joints:
+        if joint.kind != "none":
+            place = joint.point.coords[0]
+            assert place in ends_of(lines[joint.index])
+            assert place in lines[joint.other].coords
+    assert_inside(lines, areas)
+
+
+def test_simplified_lines_have_fewer_vertices_and_the_same_joints() -> None:
+    street, side = box(0, 0, 100, 8), Polygon([(40, 8), (45, 8), (45, 50), (90, 95), (40, 50)])
+    full, _ = connected([street, side])
+    lines, (joint,) = connected([street, side], simplify="10%")
+    assert (shapely.get_num_coordinates(lines) < shapely.get_num_coordinates(full)).all()
+    assert list(lines[0].coords) == [(0.0, 4.0), (42.5, 4.0), (100.0, 4.0)]
+    assert joint.point.coords[0] == (42.5, 4.0)
+
+
+@pytest.mark.parametrize("centring", ["none", "symmetric", "centred"])
+def test_lines_of_every_centring_meet(centring: str) -> None:
+    areas = [*river(2, 15.0, 12, 6), *crossing()]
+    lines, joints = connected(areas, centring=centring)
+    made = [joint for joint in joints if joint.kind != "none"]
+    assert len(made) == 11 + 4
+    for joint in made:
+        assert joint.point.coords[0] in ends_of(lines[joint.index])
+        assert joint.point.coords[0] in lines[joint.other].coords
+    assert_inside(lines, areas)
+
+
+def test_an_end_without_an_edge_keeps_its_cap() -> None:
+    areas = [box(0, 0, 20, 8), box(20, 0, 60, 8)]
+    lines, _ = connected(areas)
+    assert [line.length for line in lines] == [20.0, 40.0]
+    assert ends_of(lines[0]) == {(0.0, 4.0), (20.0, 4.0)}
+
+
+def test_a_hook_that_cannot_be_cut_stays() -> None:
+    points = np.array([(0.0, 0.0), (0.0, 1.0), (3.0, 1.0), (3.0, -1.0), (1.0, -0.1), (1.0, 0.5)])
+    chain = Chain(points.copy())
+    chain.unhook(0, box(-5, -5, 5, 5), 2.0)
+    assert (chain.points == points).all()
+
+
+def test_ways_end_in_vertices_but_for_rounding() -> None:
+    points = np.array([(1e5, 1e5), (1e5 + 30.0, 1e5 + 7.0)])
+    for k in (0, 1):
+        assert nearest_on(points, points[k] + 1e-11, np.ones(2)) == (0, float(k))
+    assert nearest_on(points, points.mean(axis=0), np.ones(2))[1] == pytest.approx(0.5)
 
 
 @pytest.mark.parametrize("options", [{"ends": "main"}, {"along": LineString([(0, 0), (9, 0)])}])

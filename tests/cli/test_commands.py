@@ -212,6 +212,23 @@ def test_joints_are_written_beside_the_lines(ending: str, midrib: Runner, tmp_pa
     assert lines[0].coords[-1] in {lines[2].coords[0], lines[2].coords[-1]}
 
 
+def test_joined_lines_are_tended_and_measured_in_their_own_areas(
+    midrib: Runner, tmp_path: Path
+) -> None:
+    aside = "POLYGON ((40 0, 50 0, 50 -70, 40 -70, 40 0))"
+    source, out = write(tmp_path / "in.gpkg", [STRIP, aside]), tmp_path / "out.gpkg"
+    options = ["--connect", "--smooth", "--width", "m"]
+    assert midrib("collapse", source, out, *options).code == 0
+    _, attributes, lines = read_all(out)
+    assert (45.0, 10.0) in {place[:2] for place in lines[0].coords}
+    assert (45.0, 10.0) in {lines[1].coords[k][:2] for k in (0, -1)}
+    assert attributes["length"].to_pylist() == [90.0, 80.0]
+    assert attributes["width_max"].to_pylist() == [20.0, 10.0]
+    m = shapely.get_coordinates(lines[1], include_m=True)[:, 2]
+    assert m.max() == 10.0
+    assert m[[0, -1]].tolist() == [0.0, 0.0]
+
+
 @pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])
 def test_connect_excludes_what_places_ends(
     option: list[str], midrib: Runner, tmp_path: Path

@@ -12,7 +12,7 @@ from midrib.curves.aftercare import aftercare
 from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
-from midrib.profiles import add_widths
+from midrib.profiles import add_widths, with_m
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from midrib.cli.guides import Guides
     from midrib.cli.report import Report
     from midrib.formats.reading import Batch, Geometries, Source
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
 __all__ = ["Results", "check_options", "collapse_layer", "joint_features"]
 
@@ -83,7 +83,15 @@ def collapse_layer(
         refused = dict(batch.unreadable) | unreadable
         lines[list(unreadable)] = None
         status = statuses(batch, problems, refused)
-        add_lines(results, batch, lines, status=status, refused=refused, geographic=geographic)
+        add_lines(
+            results,
+            batch,
+            lines,
+            status=status,
+            refused=refused,
+            geographic=geographic,
+            connect=connect,
+        )
         add_refused(results, batch, refused)
         results.n_features += len(lines)
         results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
@@ -134,6 +142,7 @@ def add_lines(
     status: list[str],
     refused: dict[int, str],
     geographic: bool,
+    connect: bool,
 ) -> None:
     """Keep the features that have a line, and those that never had a geometry."""
     keep = ~shapely.is_missing(lines)
@@ -141,18 +150,50 @@ def add_lines(
     rows = np.flatnonzero(keep)
     lines, areas = lines[rows], batch.geometries[rows]
     length = measures.length(lines, geographic=geographic)
+    own = pieces_inside(lines, areas) if connect else lines
     columns = {
         "length": numbers(length),
-        "width_mean": numbers(measures.mean_width(lines, areas, geographic=geographic)),
-        "width_max": numbers(measures.largest_width(lines, areas, geographic=geographic)),
+        "width_mean": numbers(measures.mean_width(own, areas, geographic=geographic)),
+        "width_max": numbers(measures.largest_width(own, areas, geographic=geographic)),
         "status": pa.array([status[i] for i in rows], type=pa.string()),
     }
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))
     if results.has_m:
         lines = add_widths(lines, areas, geographic=geographic)
+        lines = without_width_outside(lines, areas) if connect else lines
     results.lines.append(lines)
     results.n_lines += int(np.count_nonzero(~shapely.is_missing(lines)))
     results.total_length += float(np.nansum(length))
+
+
+def pieces_inside(lines: "Geometries", areas: "Geometries") -> "Geometries":
+    """Lines but for what leads to joints in other areas; what an area does not cover is cut off.
+
+    An area that is not valid keeps the whole line.
+    """
+    pieces = lines.copy()
+    for i in leaving(lines, areas):
+        parts = shapely.get_parts(shapely.intersection(lines[i], areas[i]))
+        parts = parts[shapely.get_dimensions(parts) == 1]
+        pieces[i] = shapely.multilinestrings(parts) if parts.size else None
+    return pieces
+
+
+def without_width_outside(lines: "Geometries", areas: "Geometries") -> "Geometries":
+    """Lines with M 0 where they lead to joints in other areas."""
+    measured = lines.copy()
+    for i in leaving(lines, areas):
+        rows = shapely.get_coordinates(lines[i], include_m=True)
+        is_inside = shapely.intersects_xy(areas[i], rows[:, 0], rows[:, 1])
+        measured[i] = with_m(lines[i], np.where(is_inside, rows[:, 2], 0.0))
+    return measured
+
+
+def leaving(lines: "Geometries", areas: "Geometries") -> "Ints":
+    """Which lines their areas do not cover, where these are valid."""
+    known = np.flatnonzero(~shapely.is_missing(lines) & shapely.is_valid(areas))
+    leaves: Ints = known[~shapely.covers(areas[known], lines[known])]
+    return leaves
 
 
 def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> None:

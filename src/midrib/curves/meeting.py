@@ -67,7 +67,8 @@ class Chain:
         is_sharp = (steps[1:] * steps[:-1]).sum(axis=1) < SHARP
         if is_sharp.any() and area.covers(LineString(plane[[0, k]])):
             points = np.delete(points, np.arange(1, k), axis=0)
-            self.points = points if end == 0 else points[::-1]
+            if LineString(points).is_simple:
+                self.points = points if end == 0 else points[::-1]
 
     def point_at(self, way: Way) -> Floats:
         """Return the point in which a way ends, with Z if there is one."""
@@ -126,13 +127,14 @@ def way_to_chain(outline: Outline, start: Floats, points: Floats) -> Way | None:
     """
     segment, share = nearest_on(points, start, np.array(outline.scale))
     goal = points[segment] + share * (points[segment + 1] - points[segment])
-    if np.abs(goal - start).max() <= ROUNDING * np.abs(start).max():
-        return Way(start[None], segment, share)
     to_goal = np.hypot(*((goal - start) * outline.scale))
+    rounding = ROUNDING * np.abs(start).max()
     for corner in (0.0, 1.0):
         vertex = points[segment + int(corner)]
         if np.hypot(*((goal - vertex) * outline.scale)) <= SAME_VERTEX * to_goal:
             share, goal = corner, vertex
+    if np.abs(goal - start).max() <= rounding:
+        return Way(start[None], segment, share)
     path = shortest_path(outline, start, goal)
     if path is None:
         return None
@@ -156,11 +158,15 @@ def up_to_line(path: Floats, points: Floats) -> Way:
 
 
 def nearest_on(points: Floats, start: Floats, scale: Floats) -> tuple[int, float]:
-    """Segment of a chain and the share of it that are nearest to a point."""
+    """Segment of a chain and the share of it that are nearest to a point: 0 or 1 at a vertex."""
     a, b = points[:-1] * scale, points[1:] * scale
     along, to = b - a, start * scale - a
     share = np.clip((to * along).sum(axis=1) / (along * along).sum(axis=1), 0.0, 1.0)
     k = int(np.argmin(((to - share[:, None] * along) ** 2).sum(axis=1)))
+    nearest = points[k] + share[k] * (points[k + 1] - points[k])
+    for corner in (0, 1):
+        if np.abs(nearest - points[k + corner]).max() <= ROUNDING * np.abs(nearest).max():
+            return k, float(corner)
     return k, float(share[k])
 
 
