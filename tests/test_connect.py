@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
-from shapely import LineString, Polygon, box
+from shapely import LineString, MultiPolygon, Polygon, box
 from shapely.affinity import scale
 
-from midrib import Joint, collapse, split
+from midrib import Joint, collapse, interrupts, split
+from midrib.curves.connecting import agreed_pairs, make_joints, plan_joints, straightened
 from midrib.curves.meeting import Chain, nearest_on
 from midrib.errors import ParameterError
 from midrib.shared_edges import find_shared_edges, rounding_of
@@ -331,7 +332,45 @@ def test_ways_end_in_vertices_but_for_rounding() -> None:
     assert nearest_on(points, points.mean(axis=0), np.ones(2))[1] == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize("options", [{"ends": "main"}, {"along": LineString([(0, 0), (9, 0)])}])
+def test_parts_left_out_share_no_edges() -> None:
+    twice = MultiPolygon([box(0, 0, 20, 8), box(0, 0, 20, 8)])
+    lines, problems = collapse([twice, box(20, 0, 60, 8)], connect=True, on_error="report")
+    assert [p.status for p in problems] == ["repaired", "joint"]
+    assert (20.0, 4.0) in ends_of(lines[1]) & ends_of(lines[0].geoms[0])
+
+
+def test_parts_refused_share_edges() -> None:
+    overlapping = MultiPolygon([box(0, 0, 20, 8), box(10, 0, 20, 9)])
+    _, problems = collapse([overlapping, box(20, 0, 60, 8)], connect=True, on_error="report")
+    assert [p.status for p in problems[:2]] == ["refused"] * 2
+    reasons = {p.reason.rpartition(": ")[2] for p in problems[2:]}
+    assert "one of the areas has no line" in reasons
+
+
+def test_interrupts_end_the_work_on_joints(monkeypatch: pytest.MonkeyPatch) -> None:
+    areas = np.array([box(0, 0, 90, 20), box(90, 0, 150, 20), box(40, -70, 50, 0)], dtype=object)
+    plan = plan_joints(areas, 3, geographic=False)
+    lines = list(collapse(areas))
+    contacts = {i: [c for c in plan.contacts if i in c.stretch] for i in plan.outlines}
+    monkeypatch.setattr(interrupts.state, "is_asked", True)
+    for work in (
+        lambda: plan_joints(areas, 3, geographic=False),
+        lambda: agreed_pairs(plan.outlines, contacts),
+        lambda: straightened(plan, lines),
+        lambda: make_joints(plan, lines),
+    ):
+        with pytest.raises(KeyboardInterrupt):
+            work()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"ends": "main"},
+        {"ends": np.array([(0.0, 1.0), (9.0, 1.0)])},
+        {"along": LineString([(0, 0), (9, 0)])},
+    ],
+)
 def test_options_that_place_ends_exclude_it(options: dict[str, Any]) -> None:
     with pytest.raises(ParameterError, match="connect places the ends"):
         collapse(box(0, 0, 9, 2), connect=True, **options)

@@ -12,8 +12,8 @@ from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon, b
 from shapely.affinity import scale, translate
 
 import midrib
-from midrib import measures
-from midrib.errors import GeometryTypeError
+from midrib import add_widths, measures, profile
+from midrib.errors import GeometryTypeError, ParameterError
 from midrib.geodesy import degree_lengths
 
 RECTANGLE = box(0, 0, 10, 2)
@@ -115,6 +115,24 @@ def test_arrays_keep_their_shape_and_broadcast() -> None:
     assert measures.length(grid).shape == (2, 2)
     assert measures.mean_width(grid, RECTANGLE).shape == (2, 2)
     assert measures.mean_width([], []).shape == (0,)
+
+
+def test_shapes_that_do_not_go_together_are_named() -> None:
+    with pytest.raises(ParameterError, match=r"shapes \(2,\) and \(3,\) do not broadcast"):
+        measures.mean_width([MIDDLE] * 2, [RECTANGLE] * 3)
+
+
+@pytest.mark.parametrize("geographic", ["yes", 1, None])
+def test_geographic_is_true_or_false(geographic: Any) -> None:
+    for call in (
+        lambda: measures.length(MIDDLE, geographic=geographic),
+        lambda: measures.width(MIDDLE, RECTANGLE, geographic=geographic),
+        lambda: measures.deviation(MIDDLE, MIDDLE, geographic=geographic),
+        lambda: add_widths(MIDDLE, RECTANGLE, geographic=geographic),
+        lambda: profile(MIDDLE, RECTANGLE, geographic=geographic),
+    ):
+        with pytest.raises(ParameterError, match=r"geographic is .*, expected True or False"):
+            call()
 
 
 def test_wrong_kinds_are_named_with_their_position() -> None:

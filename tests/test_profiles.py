@@ -129,7 +129,7 @@ def test_what_has_no_profile_is_refused() -> None:
         profile(LOW, Point(0, 0))
     with pytest.raises(InvalidAreaError, match="line is empty"):
         profile(LineString(), RECTANGLE)
-    for spacing in (0.0, -1.0, np.nan, "wide"):
+    for spacing in (0.0, -1.0, np.nan, "wide", True):
         with pytest.raises(ParameterError, match=r"spacing is .*, expected a positive number"):
             profile(LOW, RECTANGLE, spacing=spacing)  # type: ignore[arg-type]
 

@@ -437,8 +437,8 @@ def test_wrong_kinds_are_named_with_their_position(call: Any, sentence: str) -> 
         call()
 
 
-@pytest.mark.parametrize("spacing", [0.0, -1.0, np.nan, np.inf])
-def test_a_spacing_that_divides_nothing_is_refused(spacing: float) -> None:
+@pytest.mark.parametrize("spacing", [0.0, -1.0, np.nan, np.inf, True, "wide"])
+def test_a_spacing_that_divides_nothing_is_refused(spacing: Any) -> None:
     for call in (
         lambda: measures.centredness(MIDDLE, BANKS, spacing=spacing),
         lambda: measures.deviation(MIDDLE, MIDDLE, spacing=spacing),

@@ -98,6 +98,27 @@ def test_a_part_of_the_boundary_may_be_most_of_it() -> None:
     assert strip.auxiliary.equals_exact(line("1 0, 9 0"))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0 0, 0 0.0001",  # next to nothing
+        "5 0, 5.3 0",  # a little of one side
+        "0 0, 10 0, 10 2, 0 2, 0 0.3",  # nearly all the way round
+        "0 -3, 5 -9, 0.3 -3",  # far off, back to where it began
+    ],
+)
+@pytest.mark.parametrize("power", [-30, 0, 30])
+def test_a_directional_polyline_without_two_ends_apart_is_refused(text: str, power: int) -> None:
+    area, along = (
+        shapely.affinity.scale(g, 2.0**power, 2.0**power, origin=(0, 0))
+        for g in (rectangle(10.0, 2.0), line(text))
+    )
+    with pytest.raises(
+        InvalidAreaError, match=r"of the mean width apart on the boundary, expected 0"
+    ):
+        split(area, along=along)
+
+
 @pytest.mark.parametrize("turn_main", [False, True])
 @pytest.mark.parametrize("turn_auxiliary", [False, True])
 def test_curves_may_run_either_way(turn_main: bool, turn_auxiliary: bool) -> None:
@@ -236,6 +257,12 @@ def test_the_only_part_of_a_multipolygon_is_an_area() -> None:
         ({"start": "here"}, ParameterError, "start is 'here', expected a Point or a pair"),
         ({"start": (0, 0, 0)}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"start": (0, 0), "end": (np.nan, 0)}, ParameterError, "end is .*, expected a Point"),
+        (
+            {"start": ("a", "b")},
+            ParameterError,
+            "start is \\('a', 'b'\\), expected a Point or a pair",
+        ),
+        ({"start": (True, 0)}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"end": (np.inf, 0)}, ParameterError, "end is .*, expected a Point or a pair"),
         ({"start": Point()}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"start": (0, 0), "end": (0, 0)}, InvalidAreaError, "are the same point"),

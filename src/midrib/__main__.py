@@ -1,24 +1,22 @@
 """The ``midrib`` command; ``python -m midrib`` is the same."""
 
-import signal
 import sys
-import traceback
 import warnings
-from tempfile import NamedTemporaryFile
 
+from midrib import interrupts
 from midrib.errors import MidribError
+from midrib.interrupts import INTERRUPTED
 
 __all__ = ["main"]
 
-WRONG_USAGE, INTERRUPTED = 2, 130
+WRONG_USAGE = 2
 
 
 def main() -> None:
     """Run the command line and leave with its exit code."""
+    interrupts.install()  # before the imports, which take a while
     from midrib.cli.app import app
 
-    # Temporary files are cleared away as after Ctrl-C.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     warnings.formatwarning = lambda message, *_, **__: f"midrib: note: {message}\n"
     try:
         app(prog_name="midrib")
@@ -34,6 +32,9 @@ def main() -> None:
 
 def report_of(error: Exception) -> str:
     """Keep the traceback of an error of our own, and say where it is."""
+    import traceback
+    from tempfile import NamedTemporaryFile
+
     text = "".join(traceback.format_exception(error))
     with NamedTemporaryFile("w", prefix="midrib-", suffix=".txt", delete=False) as file:
         file.write(text)

@@ -8,6 +8,7 @@ __all__ = [
     "MissingDependencyError",
     "ParameterError",
     "RepairedAreaWarning",
+    "TooManyStationsError",
 ]
 
 
@@ -21,6 +22,10 @@ class GeometryTypeError(MidribError, TypeError):
 
 class ParameterError(MidribError, ValueError):
     """An option has a value that it cannot have."""
+
+
+class TooManyStationsError(ParameterError):
+    """An interval is absurdly small for an area: the option is at fault, not the area."""
 
 
 class InvalidAreaError(MidribError, ValueError):

@@ -20,6 +20,8 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiLineString, Polygon
 
+from midrib import interrupts
+from midrib.checks import is_number, shown
 from midrib.curves.collapse import Log, collapse, valid_parts
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
@@ -117,8 +119,8 @@ def profile(
         raise InvalidAreaError(msg)
     if not isinstance(strip, Strip):
         strip = split(strip)
-    scale = degree_lengths(np.array(strip.area.bounds)) if geographic else PLANE
     stations, points = stations_along(line, spacing, geographic)
+    scale = degree_lengths(np.array(strip.area.bounds)) if geographic else PLANE
     one_line = np.zeros(stations.size, dtype=np.intp)
     at_stations = chains.Chains(points[:, :2], one_line, one_line[1:] == 0)
     across = widths(at_stations, object_array([strip.area]), geographic)
@@ -141,8 +143,8 @@ def stations_along(
     arc: Floats = np.concatenate([[0.0], np.cumsum(steps)])
     if spacing is None:
         return arc, points
-    if not isinstance(spacing, int | float | np.number) or not 0.0 < spacing < np.inf:
-        msg = f"spacing is {spacing!r}, expected a positive number"
+    if not is_number(spacing) or not 0.0 < spacing < np.inf:
+        msg = f"spacing is {shown(spacing)}, expected a positive number"
         raise ParameterError(msg)
     count = arc[-1] / spacing
     if count > MOST_STATIONS:
@@ -219,6 +221,7 @@ def profiles_of(
         if problem.status == "refused":
             log.refuse(part.area, part.number, InvalidAreaError(problem.reason))
     for part, guide, line in zip(parts, guides, lines, strict=True):
+        interrupts.check()
         if line is None:
             continue
         scale = degree_lengths(np.array(part.polygon.bounds)) if geographic else PLANE

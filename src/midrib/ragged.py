@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from shapely import MultiPolygon, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
-from midrib.kernels.rings import Rings, normalise_rings
+from midrib.kernels.rings import LARGEST, SMALLEST, Rings, normalise_rings, sizes
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Packed", "area_of_one", "normalised", "pack_areas", "place_text", "rings_of_area"]
@@ -32,7 +32,20 @@ class Packed(NamedTuple):
 
 
 def normalised(rows: Floats, offsets: Ints) -> tuple[Rings, Floats | None]:
-    """Rings of one polygon in normal form, and the Z of each row or None."""
+    """Rings of one polygon in normal form, and the Z of each row or None.
+
+    Raises
+    ------
+    InvalidAreaError
+        If it is too large or too small for exact arithmetic.
+    """
+    largest, extent = sizes(rows)
+    if largest > LARGEST:
+        msg = f"the largest coordinate is {largest:.3g}, expected less than {LARGEST:.3g}"
+        raise InvalidAreaError(msg)
+    if extent < SMALLEST:
+        msg = f"the area's extent is {extent:.3g}, expected more than {SMALLEST:.3g}"
+        raise InvalidAreaError(msg)
     return normalise_rings(rows, offsets), (rows[:, 2] if rows.shape[1] > 2 else None)
 
 

@@ -1,5 +1,8 @@
 """Areas that are not valid: repaired where there is no doubt how, otherwise refused."""
 
+from collections.abc import Sequence
+from typing import NamedTuple
+
 import numpy as np
 import shapely
 from shapely import Polygon
@@ -7,11 +10,14 @@ from shapely import Polygon
 from midrib.errors import InvalidAreaError
 from midrib.ragged import place_text
 
-__all__ = ["repaired"]
+__all__ = ["Overlap", "overlaps", "repaired"]
 
 # The readings of a defective area agree if they differ by less than this share of it; pieces
 # smaller than that are left out.
 DOUBT = 1e-3
+# Parts that share less than this share of the smaller one lie side by side: it is what rounding
+# leaves where a vertex of the one is on a slanting segment of the other.
+SIDE_BY_SIDE = 1e-9
 
 
 def repaired(area: Polygon) -> tuple[list[Polygon], str]:
@@ -56,3 +62,40 @@ def readable(reason: str) -> str:
     if not bracket:
         return reason
     return f"{text} at ({', '.join(place.rstrip(']').split())})"
+
+
+class Overlap(NamedTuple):
+    """What becomes of a part that overlaps another."""
+
+    is_refused: bool
+    is_left_out: bool
+    reason: str
+
+
+def overlaps(parts: Sequence[Polygon], numbers: Sequence[int]) -> dict[int, Overlap]:
+    """Parts of an area that overlap others, by position; each is valid by itself, and has a number.
+
+    A part that is there twice, but for a thousandth, is left out once. Parts that overlap by less
+    than a thousandth of the smaller one stay as they are. Any other overlap can be read in more
+    than one way (counted once, twice, or as a hole): both parts are refused.
+    """
+    found: dict[int, Overlap] = {}
+    if len(parts) < 2:
+        return found
+    one, other = shapely.STRtree(parts).query(parts, predicate="intersects")
+    for i, j in sorted(zip(one[one < other], other[one < other], strict=True)):
+        shared, sizes = parts[i].intersection(parts[j]), (parts[i].area, parts[j].area)
+        share = shared.area / min(sizes)
+        if share <= SIDE_BY_SIDE:
+            continue
+        place = place_text(shapely.get_coordinates(shared.representative_point())[0])
+        if sum(sizes) - 2.0 * shared.area <= DOUBT * min(sizes):
+            found.setdefault(j, Overlap(False, True, f"the same as part {numbers[i]}, left out"))
+        elif share <= DOUBT:
+            reason = f"overlaps part {numbers[i]} at {place} by {share:.2g} of the smaller one"
+            found.setdefault(j, Overlap(False, False, reason))
+        else:
+            reason = "overlaps part {} at {}, which can be read in more than one way"
+            found[i] = Overlap(True, False, reason.format(numbers[j], place))
+            found[j] = Overlap(True, False, reason.format(numbers[i], place))
+    return found

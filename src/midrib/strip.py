@@ -7,6 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
+from midrib.checks import is_number, shown
 from midrib.ends import End, end_at, end_far_from, lay_out_ends, lay_out_proposed
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.kernels.rings import Rings
@@ -16,11 +17,12 @@ from midrib.ragged import area_of_one, place_text, rings_of_area
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["PLANE", "Position", "Strip", "divide", "split"]
+__all__ = ["PLANE", "Position", "Strip", "divide", "pair_of", "split"]
 
 Position: TypeAlias = "shapely.Point | tuple[float, float]"
 PLANE: Scale = (1.0, 1.0)
 MIN_POINTS, MIN_RING = 2, 3
+LEAST_SIDE = 0.25  # of the mean width: the shorter of two curves that a polyline divides
 ON_BOUNDARY = 1e-9  # a curve is on the boundary if it is this near, as a share of the extent
 
 
@@ -139,7 +141,8 @@ def split(
         The area, with holes if it has any.
     along : LineString, optional
         A directional polyline on or near the boundary: the curves divide where it starts and ends,
-        and the part beside it becomes the main curve, in its direction.
+        and the part beside it becomes the main curve, in its direction. Along the boundary, these
+        places are at least a quarter of the mean width apart.
     start, end : Point or pair of float, optional
         Where the curves divide: the nearest points of the outer boundary. With only one of them
         given, the other is the end farthest from it.
@@ -154,7 +157,8 @@ def split(
     GeometryTypeError
         If ``area`` is not a Polygon, or ``along`` not a LineString.
     InvalidAreaError
-        If the area is not valid, or start and end are one point of the boundary.
+        If the area is not valid, start and end are one point of the boundary, or those of
+        ``along`` are too near each other.
     ParameterError
         If ``along`` is given together with ``start`` or ``end``.
 
@@ -207,11 +211,25 @@ def divide(
 
 
 def divide_along(boundary: Boundary, along: LineString, scale: Scale) -> Layout:
-    """Divide where a directional polyline starts and ends; main is the part beside it."""
+    """Divide where a directional polyline starts and ends; main is the part beside it.
+
+    Raises
+    ------
+    InvalidAreaError
+        If the two ends are so near each other along the boundary that one curve is next to nothing.
+    """
     points = shapely.get_coordinates(along)
     first, last = end_at(boundary, points[0], scale), end_at(boundary, points[-1], scale)
     middle = shapely.get_coordinates(along.interpolate(0.5, normalized=True))[0]
     layout = lay_out_ends(boundary, first, last, scale, "with")
+    share = min(layout.main.length, layout.auxiliary.length) / layout.mean_width
+    if share < LEAST_SIDE:
+        start, end = place_text(layout.middle.point[0]), place_text(layout.middle.point[1])
+        msg = (
+            f"along leads from {start} to {end}, which are {share:.2g} of the mean width apart on "
+            f"the boundary, expected {LEAST_SIDE} or more"
+        )
+        raise InvalidAreaError(msg)
     distance = [
         LineString(np.column_stack([layout.mesh.x[c.vertex], layout.mesh.y[c.vertex]])).distance(
             shapely.Point(middle)
@@ -225,17 +243,22 @@ def divide_along(boundary: Boundary, along: LineString, scale: Scale) -> Layout:
 
 def position(value: object, name: str) -> "Floats":
     """Coordinates of a Point or of a pair of numbers."""
-    if isinstance(value, shapely.Point) and not value.is_empty:
-        return np.array([value.x, value.y])
-    pair = (
-        np.asarray(value, dtype=np.float64)
-        if isinstance(value, tuple | list | np.ndarray)
-        else None
-    )
-    if pair is None or pair.shape != (2,) or not np.isfinite(pair).all():
-        msg = f"{name} is {value!r}, expected a Point or a pair of finite numbers"
+    pair = pair_of(value)
+    if pair is None:
+        msg = f"{name} is {shown(value)}, expected a Point or a pair of finite numbers"
         raise ParameterError(msg)
     return pair
+
+
+def pair_of(value: object) -> "Floats | None":
+    """Coordinates of a Point or of a pair of finite numbers, None if it is neither."""
+    if isinstance(value, shapely.Point) and not value.is_empty:
+        value = (value.x, value.y)
+    is_row = isinstance(value, tuple | list | np.ndarray) and len(value) == 2
+    if not is_row or not all(is_number(part) for part in value):  # type: ignore[attr-defined]
+        return None
+    pair = np.array(value, dtype=np.float64)
+    return pair if np.isfinite(pair).all() else None
 
 
 def checked_curve(curve: object, name: str) -> LineString:

@@ -9,8 +9,6 @@ import shapely
 from shapely import LineString, MultiLineString
 from shapely.affinity import translate
 
-pytest.importorskip("scipy")
-
 from families import make
 from offsets import Known, Offsets, offsets_of
 from reference import axis_of

@@ -8,9 +8,6 @@ import shapely
 from shapely import LineString, MultiLineString
 
 from families import Case, make
-
-pytest.importorskip("scipy")
-
 from reference import axis_of
 from rivals import MIDRIB
 from score import COLUMNS, score_of

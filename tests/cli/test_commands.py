@@ -12,8 +12,9 @@ from pyarrow import csv
 from midrib import measures
 from midrib.cli.app import app
 from midrib.cli.job import with_columns
+from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
-from tests.formats.layers import crs_name, read_all, write
+from tests.formats.layers import RD_NEW, crs_name, read_all, write
 
 STRIP = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0))"
 BENT = "POLYGON ((0 0, 90 0, 90 90, 80 90, 80 10, 0 10, 0 0))"
@@ -39,6 +40,7 @@ INPUTS: dict[str, tuple[list[str | None], int, int]] = {
     "mixed": ([STRIP, "POINT (1 1)", "LINESTRING (0 0, 1 1)"], 1, 2),
     "random": (random_areas(), 40, 0),
 }
+TWICE: list[list[str | None]] = [[BOW_TIE], []]  # a run that refuses one, and one that does not
 COMMANDS = {
     "collapse": ["collapse", "IN", "OUT", "--quiet"],
     "methods": ["methods"],
@@ -115,14 +117,59 @@ def test_refused_areas_are_written_as_they_were(
     assert shapely.equals(areas[1], shapely.from_wkt(BOW_TIE)) or ending == "shp"
 
 
+@pytest.mark.parametrize("ending", ["shp", "gdb"])
+def test_refused_features_of_several_kinds_leave_the_lines(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    wkts: list[str | None] = [STRIP, "POINT (1 1)", BOW_TIE, "LINESTRING (0 0, 1 1)"]
+    wkts += ["MULTIPOINT ((1 1), (2 2))", "GEOMETRYCOLLECTION (POINT (1 1))"]
+    source, out = write(tmp_path / "in.geojson", wkts), tmp_path / f"out.{ending}"
+    outcome = midrib("collapse", source, out)
+    assert outcome.code == 1, outcome.err
+    assert "has no place for a GeometryCollection" in outcome.err
+    assert len(read_all(out, "some" if ending == "gdb" else None)[2]) == 1
+    for kind, numbers in {"": [2, 5], "_lines": [3], "_points": [1, 4]}.items():
+        layer = f"some_refused{kind}" if ending == "gdb" else f"out_refused{kind}"
+        place = out if ending == "gdb" else tmp_path / f"{layer}.shp"
+        assert f"{layer}" in outcome.err
+        _, attributes, geometries = read_all(place, layer)
+        assert attributes["number"].to_pylist() == numbers
+        assert all(attributes["reason"].to_pylist())
+        assert shapely.is_missing(geometries).sum() == (1 if kind == "" else 0)
+
+
 def test_nothing_refused_leaves_no_file_of_refusals(midrib: Runner, tmp_path: Path) -> None:
-    source = write(tmp_path / "in.gpkg", [STRIP])
-    stale = write(tmp_path / "out_refused.parquet", [STRIP])
-    out = tmp_path / "out.parquet"
-    assert midrib("collapse", source, out).code == 2
-    assert midrib("collapse", source, out, "--overwrite").code == 0
+    bad, good = (write(tmp_path / f"{i}.gpkg", [STRIP, *wkts]) for i, wkts in enumerate(TWICE))
+    out, stale = tmp_path / "out.parquet", tmp_path / "out_refused.parquet"
+    assert midrib("collapse", bad, out).code == 1
+    assert stale.exists()
+    assert midrib("collapse", good, out).code == 2
+    assert midrib("collapse", good, out, "--overwrite").code == 0
     assert out.exists()
     assert not stale.exists()
+
+
+@pytest.mark.parametrize("command", ["collapse", "profile"])
+def test_a_file_of_others_in_the_place_for_refusals_is_kept(
+    command: str, midrib: Runner, tmp_path: Path
+) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    other = write(tmp_path / "out_refused.parquet", [STRIP])
+    before = other.read_bytes()
+    outcome = midrib(command, source, tmp_path / "out.parquet", "--overwrite")
+    assert outcome.code == 2
+    assert "has no column 'reason' and so is no output of an earlier run" in outcome.err
+    assert other.read_bytes() == before
+
+
+def test_a_drawing_in_the_place_for_refusals_is_kept(midrib: Runner, tmp_path: Path) -> None:
+    bad, good = (write(tmp_path / f"{i}.gpkg", [STRIP, *wkts]) for i, wkts in enumerate(TWICE))
+    out = tmp_path / "out.dxf"
+    assert midrib("collapse", bad, out).code == 1
+    outcome = midrib("collapse", good, out, "--overwrite")
+    assert outcome.code == 0
+    assert "out_refused.dxf was there before, it is left as it was" in outcome.err
+    assert (tmp_path / "out_refused.dxf").exists()
 
 
 def test_columns_measure_the_line(midrib: Runner, tmp_path: Path) -> None:
@@ -141,6 +188,37 @@ def test_columns_that_are_taken_are_numbered_on() -> None:
     taken = pa.table({"length": [1], "Length_2": [2]})
     table = with_columns(taken, {"length": pa.array([3]), "status": pa.array(["ok"])})
     assert table.column_names == ["length", "Length_2", "length_3", "status"]
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "csv", "parquet"])
+def test_fields_that_differ_by_case_are_kept(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    areas = shapely.from_wkt([STRIP, BOW_TIE])
+    both = pa.table({"status": ["a", "b"], "Status": ["c", "d"]})
+    source, out = tmp_path / "in.parquet", tmp_path / f"out.{ending}"
+    write_layer(source, Features("both", both, areas, "geom", "Polygon", RD_NEW))
+    outcome = midrib("collapse", source, out)
+    assert outcome.code == 1
+    (row,) = read_all(out)[1].to_pylist()
+    new = "Status" if ending == "parquet" else "Status_3"
+    assert (new == "Status") == ("is written as" not in outcome.err)
+    assert (row["status"], row[new]) == ("a", "c")
+    assert row["status_2"] == "ok"
+
+
+@pytest.mark.parametrize("command", ["collapse", "profile"])
+@pytest.mark.parametrize("ending", ["gpkg", "fgb", "geojson", "parquet"])
+def test_layers_without_attributes_are_layers_too(
+    ending: str, command: str, midrib: Runner, tmp_path: Path
+) -> None:
+    areas = shapely.from_wkt([STRIP, BOW_TIE, BENT])
+    bare = Features("bare", pa.table({}), areas, "geom", "Polygon", RD_NEW)
+    source, out = tmp_path / f"in.{ending}", tmp_path / f"out.{ending}"
+    write_layer(source, bare)
+    assert midrib(command, source, out, "--quiet") == (1, "", "")
+    _, attributes, geometries = read_all(out)
+    if command == "collapse":
+        assert len(geometries) == 2
+        assert attributes.column_names == ["length", "width_mean", "width_max", "status"]
 
 
 def test_spacing_is_the_same_length_in_any_unit(midrib: Runner, tmp_path: Path) -> None:
@@ -180,9 +258,10 @@ def test_methods_are_listed(midrib: Runner) -> None:
     assert "minimal-radii  Buczek 2017" in outcome.out
 
 
-def test_figures_are_drawn(midrib: Runner, tmp_path: Path) -> None:
+@pytest.mark.parametrize("case", ["degenerate", "mixed"])
+def test_figures_are_drawn(case: str, midrib: Runner, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
-    source = write(tmp_path / "in.gpkg", INPUTS["degenerate"][0])
+    source = write(tmp_path / "in.gpkg", INPUTS[case][0])
     figure = tmp_path / "picture.svg"
     assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
     assert "<svg" in figure.read_text()
@@ -227,6 +306,36 @@ def test_joined_lines_are_tended_and_measured_in_their_own_areas(
     m = shapely.get_coordinates(lines[1], include_m=True)[:, 2]
     assert m.max() == 10.0
     assert m[[0, -1]].tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("ending", ["shp", "gdb"])
+def test_joints_stay_apart_from_refused_features_of_several_kinds(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    source = write(tmp_path / "in.geojson", [STRIP, "POINT (1 1)", onwards, BOW_TIE])
+    out = tmp_path / f"out.{ending}"
+    for again in ([], ["--overwrite"]):
+        outcome = midrib("collapse", source, out, "--connect", *again)
+        assert outcome.code == 1, outcome.err
+        assert "1 joints end to end" in outcome.err
+        for name, count in {"_refused": 1, "_refused_points": 1, "_joints": 2}.items():
+            layer = f"some{name}" if ending == "gdb" else f"out{name}"
+            place = out if ending == "gdb" else tmp_path / f"{layer}.shp"
+            assert layer in outcome.err
+            assert len(read_all(place, layer)[2]) == count
+
+
+def test_a_file_of_others_in_the_place_for_joints_is_kept(midrib: Runner, tmp_path: Path) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    other = write(tmp_path / "out_joints.parquet", [STRIP])
+    before = other.read_bytes()
+    out = tmp_path / "out.parquet"
+    outcome = midrib("collapse", source, out, "--connect", "--overwrite")
+    assert outcome.code == 2
+    assert "the place for joints, has no column 'reason'" in outcome.err
+    assert midrib("collapse", source, out, "--overwrite").code == 0
+    assert other.read_bytes() == before
 
 
 @pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])

@@ -88,6 +88,13 @@ def test_a_field_without_a_line_refuses_the_area(midrib: Runner, tmp_path: Path)
     ]
 
 
+def test_a_field_with_next_to_no_line_refuses_the_area(midrib: Runner, tmp_path: Path) -> None:
+    source = write_areas(tmp_path / "in.gpkg", ["LINESTRING (0 0, 0 0.0001)", None])
+    assert midrib("collapse", source, tmp_path / "out.gpkg", "--main", "main").code == 1
+    (reason,) = read_all(tmp_path / "out.gpkg", "areas_refused")[1]["reason"].to_pylist()
+    assert "along leads from (0, 0) to (0, " in reason
+
+
 def test_a_layer_gives_the_direction_by_place(midrib: Runner, tmp_path: Path) -> None:
     source = write_areas(tmp_path / "in.gpkg", [None, None])
     write_lines(source, [SHARED], ["other"])

@@ -20,11 +20,39 @@ WRONG: dict[str, tuple[list[str], str]] = {
     "unknown ending": (["in.gpkg", "out.png"], "OUT 'out.png' ends in '.png', expected one of"),
     "existing output": (["in.gpkg", "lines.gpkg"], "OUT 'lines.gpkg' exists, give --overwrite"),
     "output is input": (["in.gpkg", "in.gpkg", "--overwrite"], "OUT 'in.gpkg' is IN"),
+    "refused areas are input": (
+        ["x_refused.parquet", "x.parquet", "--overwrite"],
+        "OUT 'x_refused.parquet' is IN",
+    ),
+    "folder in the place": (
+        ["in.gpkg", "keep.fgb", "--overwrite"],
+        "OUT 'keep.fgb' is a folder, expected a file or nothing there",
+    ),
+    "no geodatabase": (
+        ["in.gpkg", "keep.gdb", "--overwrite"],
+        "OUT 'keep.gdb' is a folder, but no geodatabase that could be replaced",
+    ),
+    "file in the place": (
+        ["in.gpkg", "file.gdb", "--overwrite"],
+        "OUT 'file.gdb' is a file, expected a folder or nothing there",
+    ),
+    "figure's folder": (
+        ["in.gpkg", "out.gpkg", "--figure", "keep.svg", "--overwrite"],
+        "--figure 'keep.svg' is a folder",
+    ),
     "no folder": (["in.gpkg", "no/out.gpkg"], "lies in a folder that does not exist"),
     "spacing": (["in.gpkg", "out.gpkg", "--spacing", "2x"], "--spacing is '2x', expected a number"),
     "no spacing": (
         ["in.gpkg", "out.gpkg", "--spacing", "0"],
         "spacing is 0.0, expected a positive",
+    ),
+    "too dense": (
+        ["in.gpkg", "out.gpkg", "--spacing", "1e-9"],
+        "an interval of 1e-09 asks for 9e+10 stations, expected fewer",
+    ),
+    "too many": (
+        ["in.gpkg", "out.gpkg", "--count", "1000000000"],
+        "count is 1000000000, expected at most 50,000,000",
     ),
     "two intervals": (
         ["in.gpkg", "out.gpkg", "--spacing", "2", "--count", "3"],
@@ -80,9 +108,19 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     write(tmp_path / "lines.gpkg", ["LINESTRING (0 0, 1 1)"])
     (tmp_path / "text.gpkg").write_text("no vector file")
     (tmp_path / "a.svg").write_text("an old picture")
-    before = {path: path.read_bytes() for path in tmp_path.iterdir()}
+    (tmp_path / "file.gdb").write_text("no geodatabase")
+    write(tmp_path / "x_refused.parquet", [STRIP])
+    for name in ("keep.gdb", "keep.fgb", "keep.svg"):
+        (tmp_path / name / "sub").mkdir(parents=True)
+        (tmp_path / name / "sub" / "f").write_text("of the user's own")
+    before = contents(tmp_path)
     yield tmp_path
-    assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
+    assert contents(tmp_path) == before
+
+
+def contents(folder: Path) -> dict[Path, bytes | None]:
+    """Everything in a folder."""
+    return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
 
 
 @pytest.mark.usefixtures("folder")

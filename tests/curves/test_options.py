@@ -89,6 +89,18 @@ def test_nearly_equal_stations_are_one() -> None:
         ({"stations": [], "vertices": False}, "no station is left on the main curve"),
         ({"spacing": 1e-12}, "an interval of 1e-12 asks for 1e\\+13 stations, expected fewer"),
         ({"count": 3, "skip": slice(None)}, "no station is left on the main curve"),
+        ({"spacing": True}, "spacing is True, expected a positive number"),
+        ({"count": True}, "count is True, expected a positive number"),
+        (
+            {"percent": np.array([1, 2])},
+            r"percent is array\(\[1, 2\]\), expected a positive number",
+        ),
+        ({"stations": "abc"}, "stations is 'abc', expected arc lengths"),
+        ({"stations": ["1", "2"]}, "stations is .*, expected arc lengths"),
+        ({"stations": [True]}, "stations is .*, expected arc lengths"),
+        ({"stations": [[1.0], [1.0, 2.0]]}, "stations is .*, expected arc lengths"),
+        ({"stations": [1j]}, "stations is .*, expected arc lengths"),
+        ({"vertices": "no"}, "vertices is 'no', expected True or False"),
     ],
 )
 def test_rules_that_make_no_sense_are_refused(options: dict[str, Any], message: str) -> None:
@@ -139,6 +151,11 @@ def test_skip_drops_stations(skip: Any, dropped: list[int]) -> None:
         ("hills", "skip is 'hills', expected 'bays'"),
         (3.5, "skip is 3.5, expected"),
         ([Point(0, 0)], "skip is <POINT \\(0 0\\)>, expected"),
+        (True, "skip is True, expected 'bays', an index"),
+        (slice("a", "b"), "skip is slice\\('a', 'b', None\\), expected a slice of indices"),
+        (slice(np.nan, 3.0), "skip is slice\\(nan, 3.0, None\\), expected a slice of indices"),
+        (slice(0.0, 3.0, 2), "skip is slice\\(0.0, 3.0, 2\\), expected a slice of indices"),
+        (slice(None, None, 0), "skip is slice\\(None, None, 0\\), expected a slice"),
         (lambda *_: np.array([True]), "skip returned \\(1,\\) values, expected \\(11,\\)"),
     ],
 )
@@ -178,6 +195,7 @@ def test_bays_are_left_out_and_listed() -> None:
         (((0, 0.5), (10, 1.5)), (0, 0.5), (10, 1.5)),
         ([Point(0, 2), Point(10, 2)], (0, 2), (10, 2)),
         ((np.array([1, 0.5]), (10, 1)), (1, 0.5), (10, 1)),
+        (np.array([(1, 0.5), (10, 1)]), (1, 0.5), (10, 1)),
         (None, (0, 1), (10, 1)),
     ],
 )
@@ -207,6 +225,8 @@ def test_radii_at_the_ends_pass_over_the_segment_that_touches() -> None:
         (((0, 1), (np.nan, 1)), "ends has .*, expected a Point or two finite numbers"),
         (((0, 1), "east"), "ends has 'east', expected a Point or two finite numbers"),
         ((Point(), (1, 1)), "ends has .*, expected a Point or two finite numbers"),
+        ((("0", "1"), (1, 1)), "ends has .*, expected a Point or two finite numbers"),
+        (np.zeros((3, 2)), "ends is array[^\n]*, expected 'main'"),
     ],
 )
 def test_ends_that_make_no_sense_are_refused(ends: Any, message: str) -> None:
@@ -215,16 +235,27 @@ def test_ends_that_make_no_sense_are_refused(ends: Any, message: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "clearance", ["proportion", -1.0, np.nan, np.inf, True, [1.0], (), "Station"]
+    "clearance",
+    ["proportion", -1.0, np.nan, np.inf, True, [1.0], (), "Station", np.array([1, 2])],
 )
 def test_clearances_that_make_no_sense_are_refused(clearance: Any) -> None:
     with pytest.raises(ParameterError, match=r"end_clearance is .*, expected 'station'"):
         curve_of(end_clearance=clearance)
 
 
-@pytest.mark.parametrize("clearance", [None, "station", "proportional", 0, 0.0, 3, np.float64(2.0)])
+@pytest.mark.parametrize(
+    "clearance",
+    [None, "station", "proportional", 0, 0.0, 3, np.float64(2.0), np.int64(3), np.float32(3)],
+)
 def test_clearance_does_nothing_where_no_end_is_shared(clearance: Any) -> None:
     assert curve_of(end_clearance=clearance).line.equals(curve_of(end_clearance=None).line)
+
+
+def test_a_clearance_is_the_same_in_every_type_of_number() -> None:
+    strip = split(NAMED["kite"])
+    kinds: list[Any] = [int, float, np.int64, np.float32]
+    lines = [minimal_radii(strip, end_clearance=kind(1), ends=None).line for kind in kinds]
+    assert all(line.equals(lines[0]) for line in lines)
 
 
 def test_a_single_middle_without_ends_is_refused_with_a_reason() -> None:
@@ -266,6 +297,12 @@ def test_methods_are_listed() -> None:
     [
         ({"method": "skeleton"}, "method is 'skeleton', expected .*'minimal-radii'"),
         ({"on_error": "ignore"}, "on_error is 'ignore', expected 'raise' or 'report'"),
+        ({"method": [1]}, "method is \\[1\\], expected .*'minimal-radii'"),
+        ({"on_error": np.array([1, 2])}, "on_error is .*, expected 'raise' or 'report'"),
+        ({"geographic": "yes"}, "geographic is 'yes', expected True or False"),
+        ({"centring": np.array([1, 2])}, "centring is .*, expected 'none', 'symmetric'"),
+        ({"centring": "symmetric", "mean": np.array([0, 0])}, "mean is .*, expected"),
+        ({"tolerance": True}, "tolerance is True, expected a length of 0 or more"),
         ({"colour": "red"}, "method 'minimal-radii' has no option 'colour'"),
         ({"along": [None, None]}, "along has 2 lines for 1 areas, expected one each"),
     ],
@@ -273,6 +310,38 @@ def test_methods_are_listed() -> None:
 def test_options_that_do_not_exist_are_refused(options: dict[str, Any], message: str) -> None:
     with pytest.raises(ParameterError, match=message):
         collapse([rectangle(9, 2)], **options)
+
+
+WRONG_WHATEVER_THE_AREA: list[dict[str, Any]] = [
+    {"skip": "bay"},
+    {"skip": 3.5},
+    {"count": 10**9},
+    {"percent": 1e-9},
+    {"spacing": 1e-9},
+    {"ends": ((0, 1), (np.nan, 1))},
+    {"ends": ((0, 1), "east")},
+]
+
+
+@pytest.mark.parametrize("options", WRONG_WHATEVER_THE_AREA)
+def test_wrong_options_are_not_the_areas_fault(options: dict[str, Any]) -> None:
+    with pytest.raises(ParameterError):
+        collapse([rectangle(9, 2), BOW_TIE], on_error="report", **options)
+    if "spacing" not in options:  # no area is needed to tell
+        with pytest.raises(ParameterError):
+            collapse([], **options)
+
+
+def test_pairs_of_ends_may_be_an_array() -> None:
+    area, ends = rectangle(80.0, 10.0), [(1, 5), (79, 5)]
+    assert collapse(area, ends=np.array(ends)).equals(collapse(area, ends=ends))
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    area = rectangle(80.0, 10.0)
+    assert collapse(area, tolerance=np.float32(0.5)).equals(collapse(area, tolerance=0.5))
+    lines = [collapse(area, centring="symmetric", mean=mean) for mean in ((1, 0), np.array([1, 0]))]
+    assert lines[0].equals(lines[1])
 
 
 def test_missing_and_empty_stay_what_they_are() -> None:
@@ -335,6 +404,51 @@ def test_a_refused_part_is_named_and_left_out() -> None:
         collapse(parts)
 
 
+def right_of(x: float) -> Polygon:
+    """A strip 9 long and 2 wide that begins at x."""
+    return shapely.affinity.translate(rectangle(9.0, 2.0), x)
+
+
+@pytest.mark.parametrize("again", [right_of(0.0), right_of(0.0).reverse(), right_of(1e-6)])
+def test_a_part_that_is_there_twice_has_one_line(again: Polygon) -> None:
+    parts = MultiPolygon([rectangle(9.0, 2.0), again, right_of(20.0)])
+    line, problems = collapse(parts, on_error="report")
+    assert len(line.geoms) == 2
+    assert line.geoms[0].equals(collapse(rectangle(9.0, 2.0)))
+    assert [(p.part, p.status, p.reason) for p in problems] == [
+        (1, "repaired", "the same as part 0, left out")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("other", "place"),
+    [(right_of(5.0), "\\(7, 1\\)"), (box(1, 0.5, 8, 1.5), "\\(4.5, 1\\)")],
+)
+def test_parts_that_overlap_are_refused(other: Polygon, place: str) -> None:
+    parts = MultiPolygon([BOW_TIE, right_of(0.0), other, right_of(20.0)])
+    line, problems = collapse(parts, on_error="report")
+    assert len(line.geoms) == 1
+    assert {p.part: p.status for p in problems} == dict.fromkeys([0, 1, 2], "refused")
+    assert "overlaps part 2 at" in problems[1].reason
+    with pytest.raises(InvalidAreaError, match=f"areas\\[0\\]: overlaps part 1 at {place}, which"):
+        collapse(MultiPolygon([right_of(0.0), other]))
+
+
+def test_parts_that_overlap_by_next_to_nothing_stay() -> None:
+    parts = MultiPolygon([right_of(0.0), right_of(8.999)])
+    line, (problem,) = collapse(parts, on_error="report")
+    assert len(line.geoms) == 2
+    assert problem.status == "repaired"
+    assert problem.reason == "overlaps part 0 at (8.9995, 1) by 0.00011 of the smaller one"
+
+
+def test_parts_side_by_side_are_no_problem() -> None:
+    slanted = shapely.affinity.rotate(MultiPolygon([right_of(0.0), right_of(9.0)]), 17.0)
+    line, problems = collapse(slanted, on_error="report")
+    assert len(line.geoms) == 2
+    assert problems == []
+
+
 def test_a_directional_polyline_for_each_area_or_for_all() -> None:
     area, top = rectangle(10.0, 2.0), LineString([(10, 2), (0, 2)])
     lines = collapse([area, area], along=[top, None])
@@ -372,3 +486,24 @@ def test_many_sizes_of_batch_give_the_same() -> None:
         assert np.array_equal(
             shapely.get_coordinates(together[i]), shapely.get_coordinates(collapse([area])[0])
         )
+
+
+README_AREA = Polygon([(0, 0), (40, 2), (80, 0), (80, 9), (40, 12), (0, 10)])
+
+
+@pytest.mark.parametrize("centring", ["none", "symmetric", "centred"])
+@pytest.mark.parametrize("ends", [((1, 5), (79, 5)), ((79, 5), (1, 5)), ((20, 5), (60, 6))])
+def test_a_curve_between_points_of_the_users_does_not_turn_back(
+    centring: Any, ends: tuple[tuple[float, float], tuple[float, float]]
+) -> None:
+    line = minimal_radii(split(README_AREA), ends=ends, centring=centring).line
+    x = shapely.get_coordinates(line)[:, 0]
+    assert (np.diff(x) > 0.0).all() or (np.diff(x) < 0.0).all()
+    assert {line.coords[0], line.coords[-1]} == {tuple(map(float, end)) for end in ends}
+
+
+@pytest.mark.parametrize("power", [600, 1000, -600, -1000])
+def test_sizes_beyond_exact_arithmetic_are_refused(power: int) -> None:
+    large = shapely.affinity.scale(README_AREA, 2.0**power, 2.0**power, origin=(0, 0))
+    with pytest.raises(InvalidAreaError, match=r"largest coordinate|extent is"):
+        collapse(large)

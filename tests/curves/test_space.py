@@ -161,6 +161,7 @@ def test_what_has_no_curve_is_refused() -> None:
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
+        ({"ends": np.array([1, 2])}, "ends is .*, expected 'main', 'caps' or None"),
         ({"ends": "radii"}, "ends is 'radii', expected 'main', 'caps' or None"),
         ({"skip": "bays"}, "skip is 'bays', which needs an area"),
         ({"spacing": 0.0}, "spacing is 0.0, expected a positive number"),

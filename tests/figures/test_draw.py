@@ -8,6 +8,7 @@ import shapely
 from shapely import MultiPolygon, Polygon, box
 
 from midrib.errors import MissingDependencyError, ParameterError
+from tests.shapes import NOT_FINITE
 
 pytest.importorskip("matplotlib")
 
@@ -46,6 +47,23 @@ def test_any_areas_can_be_drawn(areas: object, ending: str, tmp_path: Path) -> N
     draw_collapse(areas, path)
     start = {"svg": b"<?xml", "png": b"\x89PNG", "pdf": b"%PDF"}[ending]
     assert path.read_bytes().startswith(start)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        shapely.Point(500, 500),
+        shapely.LineString([(0, 0), (0, 500)]),
+        shapely.GeometryCollection([shapely.Point(500, 500), STRIP]),
+        NOT_FINITE,
+        shapely.affinity.translate(NOT_FINITE, np.inf),
+    ],
+)
+def test_what_is_no_area_is_left_out_of_the_sheet(other: object, tmp_path: Path) -> None:
+    alone, among = tmp_path / "alone.svg", tmp_path / "among.svg"
+    draw_collapse([STRIP, BOW_TIE], alone)
+    draw_collapse([other, STRIP, None, BOW_TIE], among)
+    assert among.read_bytes() == alone.read_bytes()
 
 
 def test_the_same_areas_give_the_same_bytes(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import shapely
 from midrib.formats.reading import Geometries, Source, layer_names, open_layer
 from midrib.formats.writing import Features, write_layer
 
-__all__ = ["RD_NEW", "crs_name", "features_of", "read_all", "write"]
+__all__ = ["RD_NEW", "crs_name", "features_of", "projjson", "read_all", "write"]
 
 
 def projjson(crs: str) -> str:

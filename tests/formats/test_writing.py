@@ -37,6 +37,14 @@ def test_interrupted_writes_leave_the_old_file(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_only_geodatabases_are_moved_out_of_the_way(tmp_path: Path) -> None:
+    (tmp_path / "lines.gpkg").mkdir()
+    (tmp_path / "lines.gpkg" / "file").write_text("of the user's own")
+    with pytest.raises(OSError), staged(tmp_path) as stage:  # noqa: PT011  # it depends
+        write(stage / "lines.gpkg", LINES)
+    assert (tmp_path / "lines.gpkg" / "file").read_text() == "of the user's own"
+
+
 @pytest.mark.parametrize("ending", ["gpkg", "shp", "parquet", "gdb", "gml"])
 def test_replaced_files_are_whole(ending: str, tmp_path: Path) -> None:
     path = write(tmp_path / f"lines.{ending}", LINES)
@@ -69,6 +77,7 @@ def test_existing_files_are_kept_unless_told_otherwise(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=r"OUT '.*' exists, give --overwrite"):
         check_free([path], "OUT", overwrite=False)
     check_free([path], "OUT", overwrite=True)
+    check_free([write(tmp_path / "lines.gdb", LINES)], "OUT", overwrite=True)
 
 
 def test_missing_folders_are_named(tmp_path: Path) -> None:

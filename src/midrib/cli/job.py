@@ -12,6 +12,7 @@ from midrib.curves.aftercare import aftercare
 from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
+from midrib.formats.writing import free_name
 from midrib.profiles import add_widths, with_m
 
 if TYPE_CHECKING:
@@ -213,9 +214,7 @@ def numbers(values: "Floats") -> pa.Array:
 def with_columns(table: pa.Table, columns: dict[str, pa.Array]) -> pa.Table:
     """Table with columns added, numbered on where a name is taken: ``length_2``."""
     for name, values in columns.items():
-        taken = {known.lower() for known in table.column_names}
-        free, number = name, 2
-        while free in taken:
-            free, number = f"{name}_{number}", number + 1
-        table = table.append_column(free, values)
+        free = free_name(name, {known.lower() for known in table.column_names})
+        # A table without columns has no rows either, however many features it is of.
+        table = table.append_column(free, values) if table.num_columns else pa.table({free: values})
     return table

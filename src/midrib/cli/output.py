@@ -11,8 +11,16 @@ from midrib.cli.job import joint_features
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
+from midrib.formats.reading import column_names
 from midrib.formats.units import Unit, is_geographic, unit_of
-from midrib.formats.writing import Features, check_free, staged, write_layer
+from midrib.formats.writing import (
+    KINDS,
+    Features,
+    check_free,
+    one_kind_each,
+    staged,
+    write_layer,
+)
 
 if TYPE_CHECKING:
     from midrib.cli.guides import Guides
@@ -23,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Places", "draw"]
 
 LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
+REASON = "reason"  # the column that every layer of refused areas, or of joints, has
 KILO = 1000.0
 MANY = 10_000.0  # from so many metres on, lengths are in kilometres
 
@@ -53,8 +62,17 @@ class Places(NamedTuple):
 
     @property
     def all(self) -> list[Path]:
-        """Every file for features that a run may write."""
-        return [self.out, self.refused, *([self.joints] if self.connect else [])]
+        """Every file for features that a run may write, OUT first, each once."""
+        joints = [self.joints] if self.connect else []
+        return [*dict.fromkeys([self.out, *self.all_refused.values(), *joints])]
+
+    @property
+    def all_refused(self) -> dict[str, Path]:
+        """Files for refused features by what is added to the name for their kind of geometry."""
+        path = self.refused
+        if path == self.out or not format_of(path).has_one_kind:
+            return {"": path}
+        return {kind: path.with_name(f"{path.stem}{kind}{path.suffix}") for kind in KINDS}
 
     def check(self, *, overwrite: bool, needs_m: bool = False) -> None:
         """Refuse places that cannot be written to, before any work is done.
@@ -63,7 +81,8 @@ class Places(NamedTuple):
         ------
         ParameterError
             If OUT has an unknown ending or no place for M values that are needed, is IN, or exists
-            and is not to be overwritten.
+            and is not to be overwritten; or if there is a file in the place for refused areas or
+            joints that an earlier run has not written.
         """
         if not format_of(self.out).has_m and needs_m:
             msg = (
@@ -71,13 +90,27 @@ class Places(NamedTuple):
                 f"{', '.join(endings_with_m())} with --width m"
             )
             raise ParameterError(msg)
-        if self.source.exists() and self.out.exists() and self.source.samefile(self.out):
-            msg = f"OUT {str(self.out)!r} is IN, expected another file"
-            raise ParameterError(msg)
+        for path in self.all:
+            if self.source.exists() and path.exists() and self.source.samefile(path):
+                msg = f"OUT {str(path)!r} is IN, expected another file"
+                raise ParameterError(msg)
         check_free(self.all, "OUT", overwrite=overwrite)
+        for path in self.all[1:]:
+            if path.exists() and not self.may_replace(path):
+                what = "joints" if path == self.joints else "refused areas"
+                msg = (
+                    f"{str(path)!r}, the place for {what}, has no column {REASON!r} and so "
+                    "is no output of an earlier run, expected it elsewhere"
+                )
+                raise ParameterError(msg)
         if self.figure is not None:
             check_figure(self.figure)
             check_free([self.figure], "--figure", overwrite=overwrite)
+
+    def may_replace(self, path: Path) -> bool:
+        """Whether a file has refused areas or joints of an earlier run; drawings do not tell."""
+        names = column_names(path)
+        return format_of(path).is_drawing or any(n.lower().startswith(REASON) for n in names)
 
     def write(self, results: "Results", layer: str, report: "Report") -> None:
         """Write everything, whole or not at all; then sum up."""
@@ -90,8 +123,10 @@ class Places(NamedTuple):
             LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
-        with staged(self.out.parent, stale=self.all[1:]) as stage:
-            notes = write_layer(stage / self.out.name, lines)
+        # A drawing does not tell whether an earlier run has made it: it stays.
+        stale = [] if format_of(self.out).is_drawing else self.all[1:]
+        with staged(self.out.parent, stale=stale) as stage:
+            notes, where = write_layer(stage / self.out.name, lines), []
             if results.n_refused:
                 refused = lines._replace(
                     layer=f"{layer}_refused",
@@ -99,26 +134,32 @@ class Places(NamedTuple):
                     geometries=np.concatenate(results.refused_areas),
                     kind=source.kind,
                 )
-                notes += write_layer(stage / self.refused.name, refused)
+                apart, lost = one_kind_each(refused, format_of(self.out))
+                notes += lost
+                for kind, some in apart.items():
+                    path = self.all_refused.get(kind, self.out)
+                    notes += write_layer(stage / path.name, some)
+                    where.append(self.where(some.layer, path))
             if self.connect:
                 table, points = joint_features(results.joints)
                 joints = lines._replace(
                     layer=f"{layer}_joints", attributes=table, geometries=points, kind="Point"
                 )
                 notes += write_layer(stage / self.joints.name, joints)
+        if format_of(self.out).is_drawing and not where and self.refused.exists():
+            notes.append(f"{self.refused} was there before, it is left as it was")
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
         report.say(summary(results, report.elapsed))
         report.say(f"written to {self.out}")
         if results.n_refused:
-            report.say(f"refused areas, with reasons, in {self.where('refused', layer)}")
+            report.say(f"refused areas, with reasons, in {' and '.join(where)}")
         if self.connect:
-            report.say(f"{joints_text(results)}, in {self.where('joints', layer)}")
+            report.say(f"{joints_text(results)}, in {self.where(f'{layer}_joints', self.joints)}")
 
-    def where(self, name: str, layer: str) -> str:
+    def where(self, layer: str, path: Path) -> str:
         """Say where a second layer is."""
-        file = self.beside(name)
-        return f"layer {layer}_{name} of {file}" if file == self.out else str(file)
+        return f"layer {layer} of {path}" if path == self.out else str(path)
 
 
 def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:

@@ -17,6 +17,8 @@ from rich.progress import (
 from rich.text import Text
 from shapely import box
 
+from midrib import interrupts
+
 if TYPE_CHECKING:
     from midrib.formats.reading import Batch
 
@@ -53,6 +55,7 @@ class Report:
         if next(cache_folder().rglob("*.nbi"), None) is None:
             self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
         collapse(WARM_UP)
+        interrupts.start_work()
         self.started = time.perf_counter()
 
     def track(self, batches: Iterable["Batch"], count: int | None) -> Iterator["Batch"]:

@@ -25,6 +25,7 @@ import shapely
 from shapely import LineString
 from shapely.geometry.base import BaseGeometry
 
+from midrib.checks import check_flag, is_number, shown
 from midrib.errors import ParameterError
 from midrib.geodesy import lengths_at
 from midrib.kernels.clearance import clearances
@@ -61,9 +62,7 @@ def aftercare(simplify: float | str | None = None, smooth: bool = False) -> Afte
     ParameterError
         If ``simplify`` is neither a length nor a percentage.
     """
-    if not isinstance(smooth, bool | np.bool_):
-        msg = f"smooth is {smooth!r}, expected True or False"
-        raise ParameterError(msg)
+    check_flag(smooth, "smooth")
     if simplify is None:
         return Aftercare(None, None, bool(smooth))
     is_share = isinstance(simplify, str) and simplify.strip().endswith("%")
@@ -71,9 +70,11 @@ def aftercare(simplify: float | str | None = None, smooth: bool = False) -> Afte
         value = float(simplify.strip().removesuffix("%")) if is_share else simplify  # type: ignore[union-attr]
     except ValueError:
         value = simplify
-    is_number = isinstance(value, int | float | np.number) and not isinstance(value, bool)
-    if not (is_number and 0.0 <= float(value) < np.inf):
-        msg = f"simplify is {simplify!r}, expected a length, or a share of the width such as '5%'"
+    if not (is_number(value) and 0.0 <= float(value) < np.inf):
+        msg = (
+            f"simplify is {shown(simplify)}, expected a length, or a share of the width such as "
+            "'5%'"
+        )
         raise ParameterError(msg)
     if is_share:
         return Aftercare(None, float(value) / 100.0, bool(smooth))

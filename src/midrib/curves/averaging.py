@@ -16,6 +16,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 
+from midrib.checks import is_number, shown
 from midrib.curves.joining import Path, heights_of
 from midrib.curves.radii import Radii
 from midrib.errors import InvalidAreaError, ParameterError
@@ -38,15 +39,15 @@ def check_mean(mean: object, centring: str) -> None:
         msg = f"mean goes with centring='symmetric', found centring={centring!r}"
         raise ParameterError(msg)
     is_direction = (
-        isinstance(mean, tuple | list)
+        isinstance(mean, tuple | list | np.ndarray)
         and len(mean) == 2
-        and all(isinstance(value, int | float) for value in mean)
+        and all(is_number(value) for value in mean)
         and 0.0 < np.hypot(*mean) < np.inf
     )
-    if not is_direction and mean not in MEANS:
+    if not is_direction and not (isinstance(mean, str) and mean in MEANS):
         msg = (
-            f"mean is {mean!r}, expected 'proportional', 'same-height', 'radii' or a direction "
-            "(dx, dy) for the same height along it"
+            f"mean is {shown(mean)}, expected 'proportional', 'same-height', 'radii' or a "
+            "direction (dx, dy) for the same height along it"
         )
         raise ParameterError(msg)
 
@@ -56,9 +57,9 @@ def average(
 ) -> Path:
     """Mean of two curves of one strip, joined inside the area without loops."""
     (radii, path), (other_radii, other_path) = one, other
-    if mean in (None, "radii"):
+    if mean is None or (isinstance(mean, str) and mean == "radii"):
         at, other_at = cut_off(layout, radii, path), cut_off(layout, other_radii, other_path)
-    elif mean == "proportional":
+    elif isinstance(mean, str) and mean == "proportional":
         at, other_at = share_of_length(layout, path), share_of_length(layout, other_path)
     else:
         along = upwards(layout) if isinstance(mean, str) else np.asarray(mean, dtype=np.float64)
@@ -70,8 +71,8 @@ def average(
         z, other_z = path.height[:, None], other_path.height[:, None]
         height = (sampled(z, at, both)[:, 0] + sampled(other_z, other_at, both)[:, 0]) / 2.0
     # The search for a mean begins at the foot of the radius next to it.
-    near = np.searchsorted(at[path.on_radii], np.concatenate([both[:1], both, both[-1:]]))
-    near = path.radius[path.on_radii[np.minimum(near, path.on_radii.size - 1)]]
+    near = np.interp(np.concatenate([both[:1], both, both[-1:]]), at, nearest_radius(path))
+    near = near.astype(np.intp)
     beads = Beads(points, radii.points[near, :2].copy(), radii.at[near, 1], radii.at[near, 2])
     joined, source, loops, _ = join_beads(layout.mesh, beads, *layout.scale)
     if joined.shape[0] < 2:
@@ -84,6 +85,14 @@ def average(
         path.middles,
         path.loops + other_path.loops + loops,
     )
+
+
+def nearest_radius(path: Path) -> Floats:
+    """Return the radius of every point of a path, or that of a point before or after it, or 0."""
+    rows = path.on_radii
+    if rows.size == 0:
+        return np.zeros(len(path.points))
+    return np.interp(np.arange(len(path.points)), rows, path.radius[rows])
 
 
 def sampled(points: Floats, at: Floats, where: Floats) -> Floats:
@@ -124,11 +133,11 @@ def cut_off(layout: Layout, radii: Radii, path: Path) -> Floats:
     """
     cut = radii.stations[radii.station] + radii.arc
     known = path.on_radii
-    arc = arc_of(layout, path)
+    arc, last = arc_of(layout, path), len(path.points) - 1
     at, value = arc[known], cut[path.radius[known]]
-    if not known[0]:
+    if 0 not in known:
         at, value = np.append(0.0, at), np.append(0.0, value)
-    if not known[-1]:
+    if last not in known:
         whole = layout.main.length + layout.auxiliary.length
-        at, value = np.append(at, arc[-1]), np.append(value, whole)
+        at, value = np.append(at, arc[last]), np.append(value, whole)
     return np.maximum.accumulate(np.interp(arc, at, value))

@@ -10,6 +10,8 @@ import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from midrib import interrupts
+from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
 from midrib.curves.methods import Finder, Found, finder_of
@@ -19,11 +21,12 @@ from midrib.errors import (
     MidribError,
     ParameterError,
     RepairedAreaWarning,
+    TooManyStationsError,
 )
 from midrib.geodesy import degree_lengths
 from midrib.layout import Scale
 from midrib.ragged import pack_areas
-from midrib.repair import repaired
+from midrib.repair import overlaps, repaired
 from midrib.strip import PLANE
 
 if TYPE_CHECKING:
@@ -141,10 +144,14 @@ def collapse(
     >>> collapse([box(0, 0, 6, 2), None])
     array([<LINESTRING (0 1, 2 1, 4 1, 6 1)>, None], dtype=object)
     """
-    if on_error not in ("raise", "report"):
-        msg = f"on_error is {on_error!r}, expected 'raise' or 'report'"
+    if not isinstance(on_error, str) or on_error not in ("raise", "report"):
+        msg = f"on_error is {shown(on_error)}, expected 'raise' or 'report'"
         raise ParameterError(msg)
-    if connect and (along is not None or options.get("ends", "caps") != "caps"):
+    if geographic is not None:
+        check_flag(geographic, "geographic")
+    check_flag(connect, "connect")
+    ends = options.get("ends", "caps")
+    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
         msg = "connect places the ends of lines, give it without along and ends"
         raise ParameterError(msg)
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
@@ -156,8 +163,9 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    flat, along = array.ravel(), guides(along, array.size)
-    lines = collapse_all(flat, find, along, bool(geographic), log, care, connect=connect)
+    with interrupts.deferred():
+        flat, along = array.ravel(), guides(along, array.size)
+        lines = collapse_all(flat, find, along, bool(geographic), log, care, connect=connect)
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -165,11 +173,12 @@ def collapse(
 
 
 class Log:
-    """What went wrong where; a strict one raises at the first refusal."""
+    """What went wrong where; a strict one raises at the first refusal, any at absurd options."""
 
     def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
         self.problems: list[Problem] = []
         self.labels, self.strict = labels, strict
+        self.refused: set[tuple[int, int]] = set()  # areas by position, and parts
 
     def label(self, index: int) -> Any:
         """Name of an area: its label in a GeoSeries, else its position."""
@@ -177,8 +186,9 @@ class Log:
 
     def refuse(self, index: int, part: int, error: MidribError) -> None:
         """Record that an area (part) has no line, and why."""
-        if self.strict:
+        if self.strict or isinstance(error, TooManyStationsError):
             raise type(error)(self.sentence(index, part, str(error))) from error
+        self.refused.add((index, part))
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
     def note(
@@ -294,17 +304,39 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
             continue
         polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-        for number, polygon in enumerate(polygons):
-            if is_valid[i] or (polygon.is_valid and not polygon.is_empty):
-                yield Part(i, number, polygon)
-                continue
-            try:
-                pieces, reason = repaired(polygon)
-            except InvalidAreaError as error:
-                log.refuse(i, number, error)
-                continue
-            log.note(i, number, "repaired", reason)
-            yield from (Part(i, number, piece) for piece in pieces)
+        if is_valid[i]:
+            yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
+        else:
+            yield from apart(list(repaired_parts(i, polygons, log)), log)
+
+
+def repaired_parts(i: int, polygons: Sequence[Polygon], log: Log) -> Iterator[Part]:
+    """Polygons of one area, each valid by itself."""
+    for number, polygon in enumerate(polygons):
+        if polygon.is_valid and not polygon.is_empty:
+            yield Part(i, number, polygon)
+            continue
+        try:
+            pieces, reason = repaired(polygon)
+        except InvalidAreaError as error:
+            log.refuse(i, number, error)
+            continue
+        log.note(i, number, "repaired", reason)
+        yield from (Part(i, number, piece) for piece in pieces)
+
+
+def apart(parts: list[Part], log: Log) -> Iterator[Part]:
+    """Parts of one area that do not overlap others."""
+    found = overlaps([part.polygon for part in parts], [part.number for part in parts])
+    for row, part in enumerate(parts):
+        overlap = found.get(row)
+        if overlap is not None and overlap.is_refused:
+            log.refuse(part.area, part.number, InvalidAreaError(overlap.reason))
+            continue
+        if overlap is not None:
+            log.note(part.area, part.number, "repaired", overlap.reason)
+        if overlap is None or not overlap.is_left_out:
+            yield part
 
 
 def connected_lines(
@@ -319,9 +351,7 @@ def connected_lines(
 
     After-care comes before joints: it keeps ends, and ways to other lines start there.
     """
-    known = {(part.area, part.number) for part in parts}
-    others = [part for part in all_parts(areas) if (part.area, part.number) not in known]
-    every = [*parts, *others]
+    every = [*parts, *refused_parts(areas, log.refused - {part[:2] for part in parts})]
     plan = plan_joints(polygons_of(every), len(parts), geographic=geographic)
     prepared = [p._replace(polygon=area) for p, area in zip(parts, plan.areas, strict=False)]
     lines = straightened(plan, lines_of(prepared, find, None, geographic, log, plan.ends))
@@ -332,14 +362,14 @@ def connected_lines(
     return lines
 
 
-def all_parts(areas: "Areas") -> Iterator[Part]:
-    """Polygons of all areas whose coordinates are finite."""
-    for i, area in enumerate(areas):
+def refused_parts(areas: "Areas", refused: set[tuple[int, int]]) -> Iterator[Part]:
+    """Polygons that were refused, if their coordinates are finite; others share edges with them."""
+    for i, number in sorted(refused):
+        area = areas[i]
         if isinstance(area, Polygon | MultiPolygon):
-            polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-            for number, polygon in enumerate(polygons):
-                if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
-                    yield Part(i, number, polygon)
+            polygon = area.geoms[number] if isinstance(area, MultiPolygon) else area
+            if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
+                yield Part(i, number, polygon)
 
 
 def polygons_of(parts: list[Part]) -> "Areas":
@@ -365,6 +395,7 @@ def lines_of(
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
     for i, part in enumerate(parts):
+        interrupts.check()
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])

@@ -15,6 +15,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import LineString
 
+from midrib import interrupts
 from midrib.curves.meeting import ROUNDING, Chain, way_to_chain
 from midrib.curves.outlines import Outline, Stretch
 from midrib.ends import End
@@ -118,6 +119,7 @@ def agreed_pairs(outlines: dict[int, Outline], edges: dict[int, list[Contact]]) 
     asked = set(outlines)
     while asked:  # offers are never taken back, so this ends
         for i in asked:
+            interrupts.check()
             offered = [c for c in edges[i] if (c, c.beyond(i)) in offers]
             pair = widest_way(i, outlines[i], with_near(outlines[i], i, candidates[i], offered))
             pairs[i] = with_opposite(i, outlines[i], pair, edges[i])
@@ -157,6 +159,7 @@ def outlines_of(areas: Areas, which: list[int], *, geographic: bool) -> dict[int
         return outlines
     packed = pack_areas(areas[which])
     for row, i in enumerate(which):
+        interrupts.check()
         try:
             scale = degree_lengths(np.array(areas[i].bounds)) if geographic else PLANE
             outlines[i] = Outline(normalised(*packed.rings(row))[0], scale)
@@ -289,6 +292,7 @@ def straightened(plan: Plan, lines: Lines) -> Lines:
         reach = float(np.abs(contact.edge.points - contact.middle).max())
         for i, end in contact.chosen.items():
             if i in chains:
+                interrupts.check()
                 chains[i].unhook(end, plan.areas[i], reach)
     return [chains[i].line() if i in chains else None for i in range(len(lines))]
 
@@ -320,7 +324,9 @@ def make_joints(plan: Plan, lines: Lines) -> tuple[Lines, list[Joined]]:
         else:
             (i,) = contact.chosen
             sides.append((contact, i, contact.beyond(i)))
-    joined.extend(join_side(*side, plan.outlines, chains) for side in sides)
+    for side in sides:
+        interrupts.check()
+        joined.append(join_side(*side, plan.outlines, chains))
     return finished(lines, chains, joined)
 
 

@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
+from midrib.checks import is_number, shown
 from midrib.curves.averaging import Mean, average, check_mean
-from midrib.curves.joining import EndRule, check_ends, join_middles
+from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
 from midrib.curves.radii import EndClearance, Radii, draw_radii
 from midrib.curves.stations import Skip, StationRule
 from midrib.errors import InvalidAreaError, ParameterError
@@ -45,13 +46,12 @@ class Construction:
         centring: Centring = "none",
         mean: Mean | None = None,
     ) -> None:
-        check_ends(ends, end_clearance)
+        self.ends, self.end_clearance = check_ends(ends, end_clearance)
         check_centring(centring, tolerance)
         check_mean(mean, centring)
         if vertices is None:
             vertices = centring != "centred"  # the trunk is probed between radii anyway
         self.rule = StationRule(spacing, count, percent, vertices, stations, skip)
-        self.ends, self.end_clearance = ends, end_clearance
         self.centring, self.tolerance, self.mean = centring, tolerance, mean
 
     def of(self, layout: "Layout") -> "tuple[Radii, Path]":
@@ -62,21 +62,24 @@ class Construction:
         InvalidAreaError
             If no station sees anything of the auxiliary curve, or the curve is one point.
         """
-        radii = self.radii(layout)
+        radii, ends = between_ends(self.radii(layout), self.ends)
         if self.centring == "symmetric":
             other = layout.swapped()
-            from_other = self.radii(other)
+            from_other, _ = between_ends(self.radii(other), ends)
+            if not len(radii.points) or not len(from_other.points):
+                msg = "no radius is left between the two points of ends, so there is no mean"
+                raise ParameterError(msg)
             return radii, average(
                 layout,
-                (radii, join_middles(layout, radii, self.ends)),
-                (from_other, join_middles(other, from_other, self.ends)),
+                (radii, join_middles(layout, radii, ends)),
+                (from_other, join_middles(other, from_other, ends)),
                 self.mean,
             )
         if self.centring == "centred":
             within = CENTRED_WITHIN * layout.mean_width
             within = within if self.tolerance is None else float(self.tolerance)
-            return radii, join_middles(layout, radii, self.ends, centred_within=within)
-        return radii, join_middles(layout, radii, self.ends)
+            return radii, join_middles(layout, radii, ends, centred_within=within)
+        return radii, join_middles(layout, radii, ends)
 
     def radii(self, layout: "Layout") -> Radii:
         """Radii from a layout's main curve."""
@@ -89,13 +92,13 @@ class Construction:
 
 def check_centring(centring: Any, tolerance: Any) -> None:
     """Refuse ways of centring that do not exist."""
-    if centring not in CENTRINGS:
-        msg = f"centring is {centring!r}, expected 'none', 'symmetric' or 'centred'"
+    if not isinstance(centring, str) or centring not in CENTRINGS:
+        msg = f"centring is {shown(centring)}, expected 'none', 'symmetric' or 'centred'"
         raise ParameterError(msg)
     if tolerance is None:
         return
-    if not isinstance(tolerance, int | float) or not 0.0 <= tolerance < float("inf"):
-        msg = f"tolerance is {tolerance!r}, expected a length of 0 or more"
+    if not is_number(tolerance) or not 0.0 <= tolerance < float("inf"):
+        msg = f"tolerance is {shown(tolerance)}, expected a length of 0 or more"
         raise ParameterError(msg)
     if centring != "centred":
         msg = f"tolerance goes with centring='centred', found centring={centring!r}"

@@ -9,11 +9,11 @@
     Q0      Q1     Q2     Q3       auxiliary curve
 """
 
-from typing import Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
-import shapely
 
+from midrib.checks import is_number, shown
 from midrib.curves.heights import heights_inside
 from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
@@ -21,12 +21,14 @@ from midrib.kernels import joining as kernel
 from midrib.kernels.radii import draw_radii
 from midrib.kernels.trunk import trace_trunk
 from midrib.layout import EndPoints, Layout
+from midrib.strip import pair_of
 from midrib.types import Floats, Ints
 
-__all__ = ["EndRule", "Path", "check_ends", "heights_of", "join_middles"]
+__all__ = ["EndRule", "Path", "between_ends", "check_ends", "heights_of", "join_middles"]
 
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
 RULES = ("main", "caps", "radii")
+CLEARANCES = ("station", "proportional")
 NO_ENDS = EndPoints(
     np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2), dtype=np.intp), np.empty(0)
 )
@@ -83,20 +85,64 @@ def join_middles(
     )
 
 
-def check_ends(ends: EndRule, clearance: EndClearance) -> None:
-    """Refuse end rules and clearances that do not exist."""
-    is_pair = isinstance(ends, tuple | list) and len(ends) == 2
+def check_ends(ends: Any, clearance: Any) -> tuple[EndRule, EndClearance]:
+    """Return an end rule, a pair of points as numbers, and a clearance.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such rule, a point is none, or there is no such clearance.
+    """
+    is_pair = isinstance(ends, tuple | list | np.ndarray) and len(ends) == 2
     if not (is_pair or ends is None or (isinstance(ends, str) and ends in RULES)):
-        msg = f"ends is {ends!r}, expected 'main', 'caps', 'radii', a pair of points or None"
+        msg = f"ends is {shown(ends)}, expected 'main', 'caps', 'radii', a pair of points or None"
         raise ParameterError(msg)
-    is_length = isinstance(clearance, int | float) and not isinstance(clearance, bool)
-    if is_length and 0.0 <= float(clearance) < np.inf:  # type: ignore[arg-type]
-        return
-    if clearance is not None and clearance not in ("station", "proportional"):
+    rule: Any = (coordinates_of(ends[0]), coordinates_of(ends[1])) if is_pair else ends
+    is_rule = clearance is None or (isinstance(clearance, str) and clearance in CLEARANCES)
+    if not is_rule and not (is_number(clearance) and 0.0 <= clearance < np.inf):
         msg = (
-            f"end_clearance is {clearance!r}, expected 'station', 'proportional', a length or None"
+            f"end_clearance is {shown(clearance)}, expected 'station', 'proportional', a length or "
+            "None"
         )
         raise ParameterError(msg)
+    return rule, clearance if is_rule else float(clearance)
+
+
+def between_ends(radii: Radii, rule: EndRule) -> tuple[Radii, EndRule]:
+    """Return the radii between two end points of the caller's, and these in main's direction.
+
+    A radius counts as between if the line from its point to the next one leads away from the first
+    end, and from the last one to its own leads towards the second. Other rules keep every radius.
+    """
+    if rule is None or isinstance(rule, str):
+        return radii, rule
+    ends = np.array([coordinates_of(point) for point in rule])
+    p, q = radii.points[:, :2], radii.points[:, 2:4]
+    middles = (p + q) / 2.0
+    nearest = [int(np.argmin(squared_distances(end, p, q))) for end in ends]
+    if nearest[0] > nearest[1]:
+        nearest, ends = nearest[::-1], ends[::-1]
+    low, high = nearest[0], nearest[1] + 1
+    step = np.diff(middles, axis=0)
+    while low < len(step) and (ends[0] - middles[low]) @ step[low] > 0.0:
+        low += 1
+    while high > 1 and (ends[1] - middles[high - 1]) @ step[high - 2] < 0.0:
+        high -= 1
+    kept = np.zeros(radii.stations.size, dtype=np.bool_)
+    kept[radii.station[low:high]] = True
+    chosen = radii.chosen(kept[radii.station])
+    return chosen.of_stations(radii.stations[kept], np.cumsum(kept) - 1), tuple(ends)
+
+
+def squared_distances(point: Floats, a: Floats, b: Floats) -> Floats:
+    """Squared distance of one point to each of the segments a b."""
+    along = b - a
+    length_squared = (along**2).sum(axis=1)
+    dot = ((point - a) * along).sum(axis=1)
+    share = np.divide(dot, length_squared, out=np.zeros_like(dot), where=length_squared > 0.0)
+    off = a + np.clip(share, 0.0, 1.0)[:, None] * along - point
+    squared: Floats = (off**2).sum(axis=1)
+    return squared
 
 
 def end_points(layout: Layout, ends: EndRule) -> EndPoints:
@@ -110,7 +156,7 @@ def end_points(layout: Layout, ends: EndRule) -> EndPoints:
         return vertex_ends(layout, main.vertex[[0, -1]])
     if ends == "radii":
         return radius_ends(layout)
-    pair = np.array([coordinates_of(point) for point in ends])
+    pair = np.array(ends, dtype=np.float64)
     return EndPoints(
         pair, pair, np.array([(main.side[i], -1) for i in (0, -1)]), np.full(2, np.nan)
     )
@@ -118,14 +164,11 @@ def end_points(layout: Layout, ends: EndRule) -> EndPoints:
 
 def coordinates_of(point: object) -> tuple[float, float]:
     """Coordinates of a Point or of a pair of numbers."""
-    values = point if isinstance(point, tuple | list | np.ndarray) else ()
-    if isinstance(point, shapely.Point) and not point.is_empty:
-        values = (point.x, point.y)
-    is_pair = len(values) == 2 and all(isinstance(v, int | float | np.number) for v in values)
-    if not is_pair or not np.isfinite([float(v) for v in values]).all():
-        msg = f"ends has {point!r}, expected a Point or two finite numbers"
+    pair = pair_of(point)
+    if pair is None:
+        msg = f"ends has {shown(point)}, expected a Point or two finite numbers"
         raise ParameterError(msg)
-    return float(values[0]), float(values[1])
+    return float(pair[0]), float(pair[1])
 
 
 def vertex_ends(layout: Layout, v: Ints) -> EndPoints:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN, Construction
 from midrib.errors import ParameterError
 from midrib.kernels.collapsing import collapse_rings
@@ -65,7 +66,8 @@ def construction_of_collapse(**options: Any) -> Construction:
     out stations in bays and keep the end clearance of ``minimal_radii``.
     """
     usual = USUAL
-    if options.get("centring", "centred") != "centred":
+    centring = options.get("centring", "centred")
+    if not isinstance(centring, str) or centring != "centred":
         usual = {"ends": "caps", "skip": "bays"}
     return Construction(**(usual | options))
 
@@ -73,7 +75,8 @@ def construction_of_collapse(**options: Any) -> Construction:
 def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
-    is_usual = options.items() <= USUAL.items()
+    plain = {"ends": construction.ends, "end_clearance": construction.end_clearance}
+    is_usual = (options | plain).items() <= USUAL.items()  # arrays would not compare
 
     def find(
         coordinates: "Floats",
@@ -128,8 +131,8 @@ def finder_of(name: str, **options: Any) -> "Finder":
     ParameterError
         If there is no such method, or it has no such option.
     """
-    if name not in METHODS:
-        msg = f"method is {name!r}, expected {' or '.join(repr(known) for known in METHODS)}"
+    if not isinstance(name, str) or name not in METHODS:
+        msg = f"method is {shown(name)}, expected {' or '.join(repr(known) for known in METHODS)}"
         raise ParameterError(msg)
     try:
         return METHODS[name].finder(**options)

@@ -15,6 +15,7 @@ import numpy as np
 import shapely
 from shapely import LineString
 
+from midrib.checks import shown
 from midrib.curves.stations import SAME_STATION, Skip, StationRule
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.kernels.spacetree import nearest_in_space
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["SpaceCurve", "minimal_radii_3d"]
 
-RULES = ("main", "caps", None)
+RULES = ("main", "caps")
 SPACE, MIN_POINTS = 3, 2
 
 
@@ -143,8 +144,8 @@ def minimal_radii_3d(
     >>> minimal_radii_3d(rail, other, ends="caps", count=2).line.wkt
     'LINESTRING Z (0 1 0, 4 1 2, 8 1 4)'
     """
-    if ends not in RULES:
-        msg = f"ends is {ends!r}, expected 'main', 'caps' or None"
+    if ends is not None and not (isinstance(ends, str) and ends in RULES):
+        msg = f"ends is {shown(ends)}, expected 'main', 'caps' or None"
         raise ParameterError(msg)
     rule = StationRule(spacing, count, percent, vertices, stations, skip)
     if rule.skip_bays:

@@ -4,13 +4,14 @@ Source: the paper's section 4 and its Equation 1, d = L / count = L percent / 10
 """
 
 from collections.abc import Callable, Sequence
-from typing import Literal, NamedTuple, TypeAlias, cast
+from typing import Any, Literal, NamedTuple, TypeAlias, cast
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike
 
-from midrib.errors import ParameterError
+from midrib.checks import check_flag, is_number, shown
+from midrib.errors import ParameterError, TooManyStationsError
 from midrib.kernels.chain import Chain
 from midrib.kernels.stations import default_count, place_stations
 from midrib.types import Bools, Floats, Ints
@@ -28,6 +29,8 @@ SkipItem: TypeAlias = (
 Skip: TypeAlias = SkipItem | Sequence[SkipItem]
 SAME_STATION = 2.0**-40  # of the main curve's length: stations nearer than this are one
 MOST_STATIONS = 50_000_000
+WHOLE = 100.0  # percent
+LEAST_PERCENT = WHOLE / MOST_STATIONS
 
 
 class Stations(NamedTuple):
@@ -74,33 +77,15 @@ class StationRule:
         stations: ArrayLike | None,
         skip: Skip | None,
     ) -> None:
-        given = {"spacing": spacing, "count": count, "percent": percent}
-        named = [name for name, value in given.items() if value is not None]
-        if len(named) > 1:
-            msg = f"{' and '.join(named)} exclude each other, give one of them"
-            raise ParameterError(msg)
-        for name in named:
-            value = given[name]
-            if not isinstance(value, int | float | np.number) or not 0 < value < np.inf:
-                msg = f"{name} is {value!r}, expected a positive number"
-                raise ParameterError(msg)
-        if count is not None and count != int(count):
-            msg = f"count is {count!r}, expected a whole number"
-            raise ParameterError(msg)
-        if percent is not None and percent > 100:
-            msg = f"percent is {percent!r}, expected at most 100"
-            raise ParameterError(msg)
-        own: Floats | None = None
-        if stations is not None:
-            own = np.unique(np.asarray(stations, dtype=np.float64)).astype(np.float64)
-        if own is not None and (own.ndim != 1 or not np.isfinite(own).all()):
-            msg = "stations have a value that is not finite, expected arc lengths"
-            raise ParameterError(msg)
+        check_interval({"spacing": spacing, "count": count, "percent": percent})
+        check_flag(vertices, "vertices")
         self.spacing, self.count, self.percent = spacing, count, percent
-        self.vertices, self.stations = vertices, own
+        self.vertices, self.stations = bool(vertices), own_stations(stations)
         items = list(skip) if isinstance(skip, list | tuple) else [] if skip is None else [skip]
+        for item in items:
+            check_skip(item)
         self.skip_bays = "bays" in [item for item in items if isinstance(item, str)]
-        self.skip = [item for item in items if not (isinstance(item, str) and item == "bays")]
+        self.skip = [item for item in items if not isinstance(item, str)]
 
     def on(
         self, main: Chain, x: Floats, y: Floats, mean_width: float, n_vertices: int
@@ -112,7 +97,7 @@ class StationRule:
         Raises
         ------
         ParameterError
-            If there are none, or absurdly many.
+            If there are none, or absurdly many, or a given one is not on the curve.
         """
         own = self.own(main.length, mean_width, n_vertices)
         tolerance = SAME_STATION * main.length
@@ -135,7 +120,7 @@ class StationRule:
             n = np.floor(length / interval * (1.0 + SAME_STATION))
             if n > MOST_STATIONS:
                 msg = f"an interval of {interval:g} asks for {n:.3g} stations, expected fewer"
-                raise ParameterError(msg)
+                raise TooManyStationsError(msg)
             # i (L / n) rather than i d: commensurate stations stay so when the curve is reversed.
             steps: Floats = np.arange(int(n) + 1, dtype=np.float64)
             is_even = abs(length - n * interval) <= SAME_STATION * length
@@ -164,15 +149,87 @@ class StationRule:
         """Which stations ``skip`` leaves, bays apart: those take the radii to tell."""
         keep = np.ones(stations.size, dtype=np.bool_)
         for item in self.skip:
-            keep &= ~dropped(cast("SkipItem", item), stations, points)
+            keep &= ~dropped(item, stations, points)
         return keep
 
 
+def check_interval(given: dict[str, Any]) -> None:
+    """Refuse intervals that no main curve can have; ``given`` are those of ``StationRule``."""
+    named = {name: value for name, value in given.items() if value is not None}
+    if len(named) > 1:
+        msg = f"{' and '.join(named)} exclude each other, give one of them"
+        raise ParameterError(msg)
+    for name, value in named.items():
+        if not is_number(value) or not 0 < value < np.inf:
+            msg = f"{name} is {shown(value)}, expected a positive number"
+            raise ParameterError(msg)
+        if name == "count" and value != int(value):
+            msg = f"count is {value!r}, expected a whole number"
+            raise ParameterError(msg)
+        if name == "count" and value > MOST_STATIONS:
+            msg = f"count is {value!r}, expected at most {MOST_STATIONS:,}"
+            raise ParameterError(msg)
+        if name == "percent" and not LEAST_PERCENT <= value <= WHOLE:
+            msg = f"percent is {value!r}, expected at most 100, and at least {LEAST_PERCENT:g}"
+            raise ParameterError(msg)
+
+
+def own_stations(stations: ArrayLike | None) -> Floats | None:
+    """Stations of the caller's own, ascending."""
+    if stations is None:
+        return None
+    try:
+        given = np.asarray(stations)
+        own: Floats = np.unique(np.asarray(stations, dtype=np.float64)).astype(np.float64)
+    except (TypeError, ValueError):
+        given = np.empty(0, dtype=object)
+    if given.dtype.kind not in "iuf" or given.ndim > 1:
+        msg = f"stations is {shown(stations)}, expected arc lengths"
+        raise ParameterError(msg)
+    if not np.isfinite(own).all():
+        msg = "stations have a value that is not finite, expected arc lengths"
+        raise ParameterError(msg)
+    return own
+
+
+def check_skip(item: Any) -> None:
+    """Refuse what names no stations, whatever the main curve."""
+    if isinstance(item, str) and item == "bays":
+        return
+    if is_index(item) or isinstance(item, shapely.Polygon | shapely.MultiPolygon):
+        return
+    if isinstance(item, slice):
+        ends = [end for end in (item.start, item.stop) if end is not None]
+        is_even = is_index(item.step) and item.step and not has_arc_lengths(item)
+        if all(is_number(end) and not np.isnan(end) for end in ends) and (
+            item.step is None or is_even
+        ):
+            return
+        msg = f"skip is {shown(item)}, expected a slice of indices, or of two arc lengths"
+        raise ParameterError(msg)
+    if not callable(item):
+        msg = (
+            f"skip is {shown(item)}, expected 'bays', an index, a slice, a Polygon, a function or "
+            "a list of them"
+        )
+        raise ParameterError(msg)
+
+
+def is_index(value: Any) -> bool:
+    """Whether a value is a whole number; True and False are none."""
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
+
+
+def has_arc_lengths(item: slice) -> bool:
+    """Whether a slice is one of arc lengths, not of indices."""
+    return any(isinstance(end, float | np.floating) for end in (item.start, item.stop))
+
+
 def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
-    """Which stations one item of ``skip`` names."""
+    """Which stations one item of ``skip``, other than bays, names."""
     drop = np.zeros(stations.size, dtype=np.bool_)
     if isinstance(item, slice):
-        if isinstance(item.start, float) or isinstance(item.stop, float):
+        if has_arc_lengths(item):
             low = -np.inf if item.start is None else item.start
             high = np.inf if item.stop is None else item.stop
             return (stations >= low) & (stations <= high)
@@ -186,14 +243,8 @@ def dropped(item: SkipItem, stations: Floats, points: Floats) -> Bools:
         return drop
     if isinstance(item, shapely.Polygon | shapely.MultiPolygon):
         return cast("Bools", shapely.intersects_xy(item, points[:, 0], points[:, 1]))
-    if callable(item):
-        mask = np.asarray(item(stations, points), dtype=np.bool_)
-        if mask.shape != stations.shape:
-            msg = f"skip returned {mask.shape} values, expected {stations.shape}"
-            raise ParameterError(msg)
-        return mask
-    msg = (
-        f"skip is {item!r}, expected 'bays', an index, a slice, a Polygon, a function or a list "
-        "of them"
-    )
-    raise ParameterError(msg)
+    mask = np.asarray(cast("Callable[..., Any]", item)(stations, points), dtype=np.bool_)
+    if mask.shape != stations.shape:
+        msg = f"skip returned {mask.shape} values, expected {stations.shape}"
+        raise ParameterError(msg)
+    return mask

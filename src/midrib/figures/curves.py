@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import shapely
 from shapely import LineString
 
+from midrib import interrupts
 from midrib.curves.aftercare import aftercare, tend
 from midrib.curves.collapse import Log, valid_parts
 from midrib.curves.methods import construction_of_collapse
@@ -32,6 +33,7 @@ def curves_of(
     care = aftercare(options.pop("simplify", None), options.pop("smooth", False))
     construction = construction_of_collapse(**options)
     for index, _, polygon in valid_parts(areas, Log(None, strict=False)):
+        interrupts.check()
         scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
         guide = None if along is None else along[index]
         try:

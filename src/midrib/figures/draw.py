@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from shapely import LineString
+from shapely import LineString, MultiPolygon, Polygon
 
 from midrib.curves.collapse import as_array
 from midrib.errors import MissingDependencyError, ParameterError
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from midrib.curves.minimal_radii import Curve
+    from midrib.formats.reading import Geometries
     from midrib.types import Floats
 
 __all__ = ["check_figure", "draw_collapse"]
@@ -62,7 +63,8 @@ def draw_collapse(
     Parameters
     ----------
     areas : Polygon, MultiPolygon or array_like of them
-        Missing and empty ones are passed over; those that are refused have a colour of their own.
+        Missing and empty ones are passed over, and so is what is no area or has a coordinate that
+        is not finite; those that are refused for other reasons have a colour of their own.
     path : str or Path, optional
         File to write, .svg, .png or .pdf.
     along : LineString or array_like of them, optional
@@ -89,7 +91,8 @@ def draw_collapse(
     """
     if path is not None:
         check_figure(Path(path))
-    areas, guides = as_array(areas).ravel(), None if along is None else as_array(along).ravel()
+    areas = drawable(as_array(areas).ravel())
+    guides = None if along is None else as_array(along).ravel()
     paper = sheet_for(areas, geographic, width)
     strokes, drawn = Strokes(), np.zeros(areas.size, dtype=np.bool_)
     for index, curve, line in curves_of(areas, guides, geographic, options):
@@ -106,6 +109,16 @@ def draw_collapse(
     if path is not None:
         paper.save(Path(path))
     return paper.figure
+
+
+def drawable(features: "Geometries") -> "Geometries":
+    """Areas at known places; None for anything else."""
+    areas = features.copy()
+    for i, area in enumerate(features):
+        is_area = isinstance(area, Polygon | MultiPolygon)
+        if not is_area or not np.isfinite(shapely.get_coordinates(area)).all():
+            areas[i] = None
+    return areas
 
 
 def add_strokes(strokes: Strokes, curve: "Curve", line: LineString, paper: Paper) -> None:

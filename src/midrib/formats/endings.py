@@ -5,7 +5,15 @@ from pathlib import Path
 
 from midrib.errors import ParameterError
 
-__all__ = ["PARQUET", "SHAPEFILE_SIDES", "Format", "endings_with_m", "format_of"]
+__all__ = [
+    "DECIMALS",
+    "FOLDERS",
+    "PARQUET",
+    "SHAPEFILE_SIDES",
+    "Format",
+    "endings_with_m",
+    "format_of",
+]
 
 PARQUET = "Parquet"
 SHAPEFILE_SIDES = ("shx", "dbf", "prj", "cpg", "qix", "sbn", "sbx", "qpj")
@@ -27,6 +35,16 @@ class Format:
         Whether it says what coordinates mean.
     has_m : bool
         Whether its geometries can have M values.
+    is_folder : bool
+        Whether it is a folder with files of its own kind.
+    has_one_kind : bool
+        Whether a layer's geometries are all points, all lines or all areas, with or without Z.
+    rounds : bool
+        Whether coordinates lose digits.
+    is_global : bool
+        Whether all coordinates are turned into longitude and latitude (WGS 84).
+    identifier : str
+        Name of its column for numbers of features, if it has one among the others.
     options : tuple of pairs
         Layer options of the driver.
     """
@@ -36,29 +54,46 @@ class Format:
     is_drawing: bool = False
     has_crs: bool = True
     has_m: bool = False
+    is_folder: bool = False
+    has_one_kind: bool = False
+    rounds: bool = False
+    is_global: bool = False
+    identifier: str = ""
     options: tuple[tuple[str, str], ...] = ()
 
 
+# Digits that make a double come back bit by bit: 17 that count, or so many after the point (from
+# 0.0001 on).
+FIGURES, DECIMALS = "17", "20"
 FORMATS = {
-    "gpkg": Format("GPKG", has_layers=True, has_m=True),
+    "gpkg": Format("GPKG", has_layers=True, has_m=True, identifier="fid"),
     "parquet": Format(PARQUET),
     "geoparquet": Format(PARQUET),
     # FlatGeobuf's spatial index sorts the features and has no place for missing geometries.
     "fgb": Format("FlatGeobuf", has_m=True, options=(("SPATIAL_INDEX", "NO"),)),
-    "geojson": Format("GeoJSON"),
-    "json": Format("GeoJSON"),
-    "geojsonl": Format("GeoJSONSeq"),
-    "shp": Format("ESRI Shapefile", has_m=True),
-    "gdb": Format("OpenFileGDB", has_layers=True, has_m=True),
-    "sqlite": Format("SQLite", has_layers=True, has_m=True, options=(("FORMAT", "SPATIALITE"),)),
-    "gml": Format("GML"),
-    "kml": Format("KML"),
+    "geojson": Format("GeoJSON", options=(("SIGNIFICANT_FIGURES", FIGURES),)),
+    "json": Format("GeoJSON", options=(("SIGNIFICANT_FIGURES", FIGURES),)),
+    "geojsonl": Format("GeoJSONSeq", is_global=True, options=(("COORDINATE_PRECISION", DECIMALS),)),
+    "shp": Format("ESRI Shapefile", has_m=True, has_one_kind=True),
+    "gdb": Format(
+        "OpenFileGDB", has_layers=True, has_m=True, is_folder=True, has_one_kind=True, rounds=True
+    ),
+    "sqlite": Format(
+        "SQLite",
+        has_layers=True,
+        has_m=True,
+        identifier="ogc_fid",
+        options=(("FORMAT", "SPATIALITE"),),
+    ),
+    "gml": Format("GML", rounds=True),
+    "kml": Format("KML", is_global=True),
     "csv": Format("CSV", has_crs=False, has_m=True, options=(("GEOMETRY", "AS_WKT"),)),
-    "tab": Format("MapInfo File"),
-    "mif": Format("MapInfo File"),
-    "jml": Format("JML"),
-    "dxf": Format("DXF", is_drawing=True, has_crs=False),
+    "tab": Format("MapInfo File", rounds=True),
+    "mif": Format("MapInfo File", rounds=True),
+    "jml": Format("JML", rounds=True),
+    "dxf": Format("DXF", is_drawing=True, has_crs=False, rounds=True),
 }
+FOLDERS = tuple(f".{ending}" for ending, known in FORMATS.items() if known.is_folder)
 
 
 def format_of(path: Path) -> Format:

@@ -15,10 +15,19 @@ import pyogrio
 import pyogrio.errors
 import shapely
 
+from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.geoparquet import geo_column
 
-__all__ = ["Batch", "Geometries", "Source", "choose_layer", "layer_names", "open_layer"]
+__all__ = [
+    "Batch",
+    "Geometries",
+    "Source",
+    "choose_layer",
+    "column_names",
+    "layer_names",
+    "open_layer",
+]
 
 Geometries: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.object_]]"
 PARQUET_ENDINGS = (".parquet", ".geoparquet")
@@ -75,6 +84,7 @@ class Source:
         yield Batch(0, self.attributes.empty_table(), np.empty(0, dtype=object), {})
         first = 0
         for batch in self.stream:
+            interrupts.check()
             attributes = pa.Table.from_batches([batch]).select(self.attributes.names)
             yield Batch(first, attributes, *decoded(batch.column(self.geometry)))
             first += batch.num_rows
@@ -99,6 +109,17 @@ def layer_names(path: Path) -> dict[str, str | None]:
     except UNREADABLE:
         msg = f"IN {str(path)!r} cannot be read as a vector file"
         raise ParameterError(msg) from None
+
+
+def column_names(path: Path) -> list[str]:
+    """Columns of a file's first layer; none if it cannot be read."""
+    try:
+        if path.suffix.lower() in PARQUET_ENDINGS:
+            return list(pq.read_schema(path).names)
+        with without_m():
+            return [str(name) for name in pyogrio.read_info(path, layer=0)["fields"]]
+    except UNREADABLE:
+        return []
 
 
 def choose_layer(path: Path, layer: str | None) -> str:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from midrib.errors import ParameterError
 
-__all__ = ["Unit", "is_geographic", "length_in", "unit_of"]
+__all__ = ["Unit", "is_geographic", "is_wgs84", "length_in", "unit_of"]
 
 METRES = {
     "mm": 0.001,
@@ -25,6 +25,7 @@ METRES = {
     "mi": 1609.344,
     "nmi": 1852.0,
 }
+WGS84 = {("EPSG", "4326"), ("OGC", "CRS84")}
 LENGTH = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-zA-Z]*)\s*")
 
 
@@ -112,6 +113,12 @@ def is_geographic(crs: str | None) -> bool:
         msg = f"the CRS of IN counts in units of {name!r}, expected degrees or lengths"
         raise ParameterError(msg)
     return True
+
+
+def is_wgs84(crs: str) -> bool:
+    """Whether coordinates are longitude and latitude of WGS 84."""
+    found = json.loads(crs).get("id", {})
+    return (found.get("authority"), str(found.get("code"))) in WGS84
 
 
 def horizontal(crs: str | None) -> dict[str, Any]:

@@ -26,7 +26,15 @@ from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Banks", "banks_of", "lean_at", "level_between", "level_from", "way_to_level"]
+__all__ = [
+    "Banks",
+    "banks_of",
+    "is_level",
+    "lean_at",
+    "level_between",
+    "level_from",
+    "way_to_level",
+]
 
 LEVEL = 2.0**-42  # of the width: less lean than this is rounding
 ROUNDS = 64  # bisection alone needs 53

@@ -9,7 +9,7 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.kernels.layout import lay_out_rings
 from midrib.kernels.radii import draw_radii
-from midrib.kernels.rings import normalise_rings
+from midrib.kernels.rings import LARGEST, SMALLEST, normalise_rings, sizes
 from midrib.kernels.stations import default_count, even_stations, place_stations
 from midrib.kernels.trunk import trace_trunk
 from midrib.types import Floats, Ints
@@ -37,6 +37,9 @@ def collapse_rings(
         Not done where something is unusual: the single steps know what to do or to say.
     """
     nothing = np.empty((0, 2))
+    largest, extent = sizes(coordinates)
+    if largest > LARGEST or extent < SMALLEST:
+        return False, nothing, 0
     rings = normalise_rings(coordinates, offsets)
     divided = lay_out_rings(rings, NO_HEIGHT, scale_x, scale_y)
     if not divided.is_divided:

@@ -29,6 +29,7 @@ LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
 LEAST_CAP = 0.25  # of the mean width
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
+LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
 
 
 @njit()
@@ -298,15 +299,25 @@ def mean_width(x: Floats, y: Floats, arc: Floats) -> float:
 
 
 @njit()
-def leave_two_banks(places: Ints, shares: Floats, n: int) -> bool:
-    """Whether something of a shell of n vertices is left on both sides between two ends."""
-    is_point_a, is_point_b = places[0, 0] == places[0, 1], places[1, 0] == places[1, 1]
-    if is_point_a and is_point_b:
-        return places[0, 0] != places[1, 0] or shares[0] != shares[1]
-    first = (places[1, 0] + shares[1] - places[0, 1] - shares[0]) % n
-    second = (places[0, 0] + shares[0] - places[1, 1] - shares[1]) % n
-    caps = (places[0, 1] - places[0, 0]) % n + (places[1, 1] - places[1, 0]) % n
-    return first > 0.0 and second > 0.0 and abs(first + second + caps - n) < 0.5
+def shorter_bank(arc: Floats, places: Ints, shares: Floats) -> float:
+    """Length of the shorter of the two banks that two ends leave of a shell; negative if none."""
+    n = arc.size - 1
+    at = np.empty((2, 2))
+    for i in range(2):
+        for j in range(2):
+            k = places[i, j]
+            at[i, j] = arc[k] + shares[i] * (arc[k + 1] - arc[k])
+    perimeter, is_cap = arc[n], np.zeros(2, np.bool_)
+    caps = 0.0
+    for i in range(2):
+        is_cap[i] = places[i, 0] != places[i, 1]
+        if is_cap[i]:
+            caps += (at[i, 1] - at[i, 0]) % perimeter
+    first, second = (at[1, 0] - at[0, 1]) % perimeter, (at[0, 0] - at[1, 1]) % perimeter
+    # Where caps overlap the two banks are longer than what is left.
+    if abs(first + second + caps - perimeter) > 0.5 * perimeter:
+        return -1.0
+    return min(first, second)
 
 
 @njit(entry=True)
@@ -357,11 +368,12 @@ def propose_ends(
             kind, p, q, share = shape_of_end(x, y, arc, pair[i], width)
             shaped[i, 0], shaped[i, 1] = p, q
             shares[i] = share if kind == POINT else 0.0
-    # Where the shapes of both ends leave no banks between them, one of them is only its vertex.
+    # Where the shapes of both leave hardly a bank between them, one of them is only its vertex.
+    least = LEAST_BANK * shorter_bank(arc, far, no_shares)
     for which in range(3):
         places, at = shaped.copy(), shares.copy()
         if which > 0:
             places[2 - which], at[2 - which] = far[2 - which], 0.0
-        if leave_two_banks(places, at, n):
+        if shorter_bank(arc, places, at) >= least:
             return places, at
     return far, no_shares

@@ -40,18 +40,20 @@ class Loops(NamedTuple):
 
 @njit()
 def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
-    """Whether there is boundary besides the curves and what joins them along the shell."""
+    """Whether there is boundary besides the two curves and the caps between them."""
     sides = 0
     for e in range(mesh.tri.size):
         if mesh.twin[e] < 0:
             sides += 1
-    first = e = main.side[0]
-    on_shell = 1
-    e = next_boundary_side(mesh, e)
-    while e != first:
-        on_shell += 1
-        e = next_boundary_side(mesh, e)
-    return sides > on_shell or on_shell > main.side.size + auxiliary.side.size
+    known = main.side.size + auxiliary.side.size
+    for chain, other in ((main, auxiliary), (auxiliary, main)):
+        # From the last side of either curve on: a cap leads to the other curve, a hole back.
+        is_forward = mesh.tri[chain.side[0]] == chain.vertex[0]
+        e = next_boundary_side(mesh, chain.side[-1] if is_forward else chain.side[0])
+        while e != other.side[0] and e != other.side[-1] and sides >= known:
+            known += 1
+            e = next_boundary_side(mesh, e)
+    return sides > known
 
 
 @njit()

@@ -22,7 +22,7 @@ import numpy as np
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import Mesh, contains, is_beyond, pull_inside
+from midrib.kernels.mesh import ROUNDING_REACH, Mesh, contains, is_beyond, pull_inside
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
@@ -256,7 +256,17 @@ def nearest_triangle(mesh: Mesh, qx: float, qy: float) -> tuple[int, float, floa
     -1 if q is farther out.
     """
     best, best_x, best_y, least = -1, qx, qy, np.inf
+    reach = ROUNDING_REACH * 4.0 * max(abs(qx), abs(qy))
     for t in range(mesh.tri.size // 3):
+        a, b, c = mesh.tri[3 * t], mesh.tri[3 * t + 1], mesh.tri[3 * t + 2]
+        if min(mesh.x[a], mesh.x[b], mesh.x[c]) > qx + reach:
+            continue
+        if max(mesh.x[a], mesh.x[b], mesh.x[c]) < qx - reach:
+            continue
+        if min(mesh.y[a], mesh.y[b], mesh.y[c]) > qy + reach:
+            continue
+        if max(mesh.y[a], mesh.y[b], mesh.y[c]) < qy - reach:
+            continue
         x, y, is_inside = pull_inside(mesh, t, qx, qy)
         moved = abs(x - qx) + abs(y - qy)
         if is_inside and moved < least:
@@ -282,12 +292,21 @@ def locate_from(
     outside.
     """
     t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
+    if vertex < 0 and is_beyond(mesh, side, px, py):
+        px, py, _ = pull_inside(mesh, t, px, py)
     end = side // 3
     if t >= 0 and (vertex >= 0 or not is_beyond(mesh, side, qx, qy)):
         end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
         if obstacle == -1:
             return end, qx, qy
     for t in (end, near):
+        if t >= 0:
+            x, y, is_inside = pull_inside(mesh, t, qx, qy)
+            if is_inside:
+                return t, x, y
+    # Collinear vertices of the boundary make triangles without an inside; the next ones have one.
+    for e in range(3 * end, 3 * end + 3):
+        t = mesh.twin[e] // 3
         if t >= 0:
             x, y, is_inside = pull_inside(mesh, t, qx, qy)
             if is_inside:

@@ -11,7 +11,11 @@ from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["Rings", "normalise_rings"]
+__all__ = ["LARGEST", "SMALLEST", "Rings", "normalise_rings", "sizes"]
+
+# Products of coordinates and their rounding errors neither overflow nor vanish up to here: the
+# outer triangle of a triangulation is 2^17 extents large, and errors are 2^-106 of a product.
+LARGEST, SMALLEST = 2.0**400, 2.0**-400
 
 
 class Rings(NamedTuple):
@@ -86,6 +90,19 @@ def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
             at -= 1
         order[at] = ring
     return order
+
+
+@njit(entry=True)
+def sizes(coordinates: Floats) -> tuple[float, float]:
+    """Largest coordinate and larger extent of rows (x, y, ...); NaN if one is NaN."""
+    largest, extent = 0.0, 0.0
+    for axis in range(2):
+        low, high = np.inf, -np.inf
+        for i in range(coordinates.shape[0]):
+            low, high = min(low, coordinates[i, axis]), max(high, coordinates[i, axis])
+        largest = max(largest, abs(low), abs(high))
+        extent = max(extent, high - low)
+    return largest, extent
 
 
 @njit(entry=True)

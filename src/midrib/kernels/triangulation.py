@@ -269,12 +269,13 @@ def side_around(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
     """Return the half-edge from a to b, found by turning around a, or -1."""
     start = out[a]
     e = start
-    while True:
+    for _ in range(tri.size):
         if tri[next_side(e)] == b:
             return e
         e = twin[previous_side(e)]
         if e == start or e < 0:
-            return -1
+            break
+    return -1
 
 
 @njit()
@@ -310,7 +311,7 @@ def first_crossing(
     """
     start = out[a]
     e = start
-    while True:
+    for _ in range(tri.size):
         u, v = tri[next_side(e)], tri[previous_side(e)]
         side_u = orient(x[a], y[a], x[b], y[b], x[u], y[u])
         if side_u == 0.0 and (x[u] - x[a]) * (x[b] - x[a]) + (y[u] - y[a]) * (y[b] - y[a]) > 0.0:
@@ -319,7 +320,8 @@ def first_crossing(
             return next_side(e), -1
         e = twin[previous_side(e)]
         if e == start or e < 0:
-            return -1, -1
+            break
+    return -1, -1
 
 
 @njit()
@@ -340,9 +342,9 @@ def crossed_edges(
     segment is crossed.
     """
     count = 0
-    while True:
+    for _ in range(tri.size):
         if segment[e] != FREE:
-            return count, -2
+            break
         crossed[2 * count], crossed[2 * count + 1] = tri[e], tri[next_side(e)]
         count += 1
         f = twin[e]
@@ -355,6 +357,7 @@ def crossed_edges(
         # f runs from left to right and w closes its triangle: the next crossing is between w and
         # whichever end of f lies across a-b from it.
         e = next_side(f) if side > 0.0 else previous_side(f)
+    return count, -2
 
 
 @njit()

@@ -12,12 +12,15 @@ probe that is farthest off is moved onto the trunk and becomes a point of the li
                 \_/
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from midrib.kernels.banks import (
     Banks,
     Lean,
     banks_of,
+    is_level,
     lean_at,
     level_between,
     level_from,
@@ -26,28 +29,47 @@ from midrib.kernels.banks import (
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import Loops, has_islands, loops_of
 from midrib.kernels.jit import njit
-from midrib.kernels.joining import Joined, cut_all_loops, string_beads
+from midrib.kernels.joining import Joined, cut_all_loops, join_beads, string_beads
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import (
     Beads,
     find_sleeve,
-    join_points,
     locate_from,
     new_search,
     pull_tight,
+    triangle_towards,
     walk,
 )
 from midrib.kernels.triangulation import next_side
+from midrib.kernels.visibility import ray_meets_side
 from midrib.types import Floats, Ints
 
 __all__ = ["trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
-SHARE_OF_SLACK = 2.0**-4  # of the tolerance: what points of the trunk may be off it
+SHARE_OF_SLACK = 2.0**-24  # of the tolerance: what points of the trunk may be off it
+APART = 2.0**-4  # of the tolerance: points that are nearer to each other are one
 DEPTH = 12  # halvings of the way between two radii
+GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
+TINY = 2.0**-1000
+RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+class Ends(NamedTuple):
+    """End points that the line has to reach, though they may be off the trunk; in lengths."""
+
+    are_given: bool
+    x0: float
+    y0: float
+    off_0: float
+    reach_0: float
+    x1: float
+    y1: float
+    off_1: float
+    reach_1: float
 
 
 @njit(entry=True)
@@ -80,16 +102,23 @@ def trace_trunk(
     Joined
         Every piece has been walked with exact signs, so the line does not leave the area. Where
         the straight way between two radii is blocked it bends around the obstacle, by the trunk
-        if that can be reached from the middle of a door of the sleeve, else by the wall itself.
+        if that can be seen from the turn of the shortest way, else by the wall itself.
     """
     beads = string_beads(points, at, end, end_origin, end_at)
+    first, n = end.shape[0] // 2, beads.side.size
+    slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
     loops = Loops(np.empty(0, np.intp), np.zeros(1, np.intp), np.empty(0, np.bool_))
+    kept = beads_in_order(points[:, 4], first, n)
+    path, source = beads.point[kept], kept
     if has_islands(mesh, main, auxiliary):
-        path, _ = join_points(mesh, beads, scale_x, scale_y)
+        some = Beads(beads.point[kept], beads.origin[kept], beads.side[kept], beads.vertex[kept])
+        joined = join_beads(mesh, some, scale_x, scale_y)
+        path, source = joined.points, joined.source
+        for k in range(source.size):
+            if source[k] >= 0:
+                source[k] = kept[source[k]] if source[k] < kept.size else n
         loops = loops_of(mesh, main, auxiliary, path)
-    slack = SHARE_OF_SLACK * tolerance
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
-    first = end.shape[0] // 2
     for i in range(points.shape[0]):
         x, y = level_between(
             banks,
@@ -100,18 +129,151 @@ def trace_trunk(
             0.5,
         )
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
-    path, source = trace(mesh, banks, beads, tolerance, scale_x, scale_y)
+    stops = stops_on(mesh, banks, beads, path, source, scale_x, scale_y)
+    ends = ends_of(banks, beads, end.shape[0] > 0, apart, scale_x, scale_y)
+    path, source = trace(mesh, banks, beads, stops, ends, tolerance, apart, scale_x, scale_y)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
 
 
 @njit()
+def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
+    """Return the end beads and those of the most radii whose Q never travel back.
+
+    Radii that do not travel back do not cross, and so have the trunk's points in order; the others
+    come from bays. The longest sequence that does not descend, by patience sorting.
+    """
+    k = arc.size
+    length_at, before = np.empty(k + 1, np.intp), np.full(k, -1, np.intp)
+    longest = 0  # length_at[m]: the last one of a sequence of m + 1 that ends lowest
+    for i in range(k):
+        low, high = 0, longest
+        while low < high:
+            middle = (low + high) // 2
+            if arc[length_at[middle]] <= arc[i]:
+                low = middle + 1
+            else:
+                high = middle
+        if low > 0:
+            before[i] = length_at[low - 1]
+        length_at[low] = i
+        longest = max(longest, low + 1)
+    ends = n - k
+    kept = np.empty(longest + ends, np.intp)
+    row = length_at[longest - 1] if longest > 0 else -1
+    for m in range(longest - 1, -1, -1):
+        kept[first + m] = first + row
+        row = before[row]
+    if ends > 0:
+        kept[0], kept[longest + 1] = 0, n - 1
+    return kept
+
+
+@njit()
+def stops_on(
+    mesh: Mesh,
+    banks: Banks,
+    beads: Beads,
+    path: Floats,
+    source: Ints,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[Floats, Ints]:
+    """Return the points that the trunk goes by, and for each its bead or -1 - (its triangle).
+
+    Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
+    passes islands on the side where the path does.
+    """
+    n, last = source.size, beads.side.size - 1
+    point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
+    for k in range(n):
+        if source[k] > last:
+            continue
+        if source[k] >= 0:
+            point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
+            at[count] = source[k]
+            count += 1
+        elif 0 < k < n - 1:
+            t, x, y = opposite_turn(
+                mesh, banks, -1 - source[k], path[k - 1, 0], path[k - 1, 1],
+                path[k + 1, 0], path[k + 1, 1], scale_x, scale_y,
+            )  # fmt: skip
+            if t >= 0:
+                point[count, 0], point[count, 1], at[count] = x, y, -1 - t
+                count += 1
+    if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
+        point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
+        at[count] = last
+        count += 1
+    return point[:count], at[:count]
+
+
+@njit()
+def opposite_turn(
+    mesh: Mesh,
+    banks: Banks,
+    v: int,
+    ax: float,
+    ay: float,
+    bx: float,
+    by: float,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[int, float, float]:
+    """Return the triangle and place where the ray away from a turn meets the trunk; -1 if nowhere.
+
+    ``v`` is the mesh vertex at which a way from a to b turns around a wall. The ray halves the
+    turn on its outer side.
+    """
+    x, y = mesh.x[v], mesh.y[v]
+    ux, uy, wx, wy = (ax - x) * scale_x, (ay - y) * scale_y, (bx - x) * scale_x, (by - y) * scale_y
+    u, w = length(ux, uy), length(wx, wy)
+    away_x, away_y = -(ux / u + wx / w), -(uy / u + wy / w)
+    size = length(away_x, away_y)
+    here = lean_at(banks, x * scale_x, y * scale_y)
+    reach = RAY * (here.to_main + here.to_auxiliary)
+    if not size > 0.0 or not reach > 0.0:
+        return -1, 0.0, 0.0
+    hx, hy = x + reach * (away_x / size) / scale_x, y + reach * (away_y / size) / scale_y
+    t = triangle_towards(mesh, v, hx, hy)
+    if t < 0:
+        return -1, 0.0, 0.0
+    _, side = walk(mesh, t, -1, x, y, hx, hy)
+    if side >= 0:
+        c, d = mesh.tri[side], mesh.tri[next_side(side)]
+        share = ray_meets_side(x, y, hx, hy, mesh.x[c], mesh.y[c], mesh.x[d], mesh.y[d])
+        if np.isnan(share):
+            return -1, 0.0, 0.0
+        hx = mesh.x[c] + share * (mesh.x[d] - mesh.x[c])
+        hy = mesh.y[c] + share * (mesh.y[d] - mesh.y[c])
+    there = lean_at(banks, hx * scale_x, hy * scale_y)
+    if here.value < 0.0 and there.value > 0.0:
+        mx, my = level_between(banks, x * scale_x, y * scale_y, hx * scale_x, hy * scale_y, 0.5)
+    elif here.value > 0.0 and there.value < 0.0:
+        mx, my = level_between(banks, hx * scale_x, hy * scale_y, x * scale_x, y * scale_y, 0.5)
+    else:
+        return -1, 0.0, 0.0
+    mx, my = mx / scale_x, my / scale_y
+    end, obstacle = walk(mesh, t, -1, x, y, mx, my)
+    return end if obstacle == -1 else -1, mx, my
+
+
+@njit()
 def trace(
-    mesh: Mesh, banks: Banks, beads: Beads, tolerance: float, scale_x: float, scale_y: float
+    mesh: Mesh,
+    banks: Banks,
+    beads: Beads,
+    stops: tuple[Floats, Ints],
+    ends: Ends,
+    tolerance: float,
+    apart: float,
+    scale_x: float,
+    scale_y: float,
 ) -> tuple[Floats, Ints]:
     """Return the path from bead to bead, and the bead or (-1 - v) mesh vertex that each point is.
 
     One past the beads for a point between.
     """
+    stop, stop_at = stops
     n = beads.side.size
     search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
@@ -119,17 +281,19 @@ def trace(
     goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
     count, t = 0, -1
     px, py = 0.0, 0.0
-    for i in range(n):
-        qx, qy = beads.point[i, 0], beads.point[i, 1]
-        end, qx, qy = locate_from(
-            mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
-            qx, qy, t, search,
-        )  # fmt: skip
-        near_last = i < n - 1 and is_near(
-            qx, qy, beads.point[n - 1, 0], beads.point[n - 1, 1], banks.slack, scale_x, scale_y
-        )
-        near_path = i < n - 1 and is_near(qx, qy, px, py, banks.slack, scale_x, scale_y)
-        if end < 0 or near_last or (t >= 0 and near_path):
+    for k in range(stop_at.size):
+        qx, qy, i = stop[k, 0], stop[k, 1], stop_at[k]
+        if i < 0:
+            end, i = -1 - i, n
+        else:
+            end, qx, qy = locate_from(
+                mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
+                qx, qy, t, search,
+            )  # fmt: skip
+        is_end = ends.are_given and i in (0, n - 1)
+        is_repeat = t >= 0 and is_near(qx, qy, px, py, apart, scale_x, scale_y)
+        hides = not is_end and (is_repeat or is_before_end(ends, qx * scale_x, qy * scale_y))
+        if end < 0 or hides:
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
@@ -147,6 +311,7 @@ def trace(
                     if depth < DEPTH:
                         at, mx, my = worst_probe(
                             banks,
+                            ends,
                             px * scale_x,
                             py * scale_y,
                             qx * scale_x,
@@ -163,11 +328,11 @@ def trace(
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
                     turns = pull_tight(mesh, sleeve, px, py, qx, qy)
                     if depth < DEPTH and turns.size > 0:
-                        between, mx, my = middle_of_door(
-                            mesh, banks, sleeve, turns, scale_x, scale_y
+                        between, mx, my = opposite_middle_turn(
+                            mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
                         )
-                is_old = is_near(mx, my, px, py, banks.slack, scale_x, scale_y) or is_near(
-                    mx, my, qx, qy, banks.slack, scale_x, scale_y
+                is_old = is_near(mx, my, px, py, apart, scale_x, scale_y) or is_near(
+                    mx, my, qx, qy, apart, scale_x, scale_y
                 )
                 if between >= 0 and not is_old:
                     goal_at[top, 2] = depth + 1
@@ -194,6 +359,51 @@ def trace(
 
 
 @njit()
+def ends_of(
+    banks: Banks, beads: Beads, are_given: bool, apart: float, scale_x: float, scale_y: float
+) -> Ends:
+    """Return the ends of a path, the first and the last bead if they are."""
+    n = beads.side.size
+    x0, y0, x1, y1 = 0.0, 0.0, 0.0, 0.0
+    off_0, off_1, reach_0, reach_1 = 0.0, 0.0, 0.0, 0.0
+    if are_given:
+        x0, y0 = beads.point[0, 0] * scale_x, beads.point[0, 1] * scale_y
+        x1, y1 = beads.point[n - 1, 0] * scale_x, beads.point[n - 1, 1] * scale_y
+        off_0, reach_0 = off_and_reach(banks, apart, x0, y0)
+        off_1, reach_1 = off_and_reach(banks, apart, x1, y1)
+    return Ends(are_given, x0, y0, off_0, reach_0, x1, y1, off_1, reach_1)
+
+
+@njit()
+def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float, float]:
+    """How far an end is off the trunk, and how far from it the line may still be on its way."""
+    lean = lean_at(banks, x, y)
+    if is_level(lean, banks.slack):
+        return 0.0, apart
+    off = abs(lean.value) / 2.0
+    return off, max(min(GLIDE * off, lean.to_main + lean.to_auxiliary), apart)
+
+
+@njit()
+def is_before_end(ends: Ends, x: float, y: float) -> bool:
+    """Whether a point is so near to an end that the line has not come to the trunk yet."""
+    return ends.are_given and (
+        length(x - ends.x0, y - ends.y0) <= ends.reach_0
+        or length(x - ends.x1, y - ends.y1) <= ends.reach_1
+    )
+
+
+@njit()
+def allowance(ends: Ends, x: float, y: float) -> float:
+    """How far off the trunk a point may be because an end is: less and less away from it."""
+    if not ends.are_given:
+        return 0.0
+    first = 1.0 - length(x - ends.x0, y - ends.y0) / (2.0 * ends.reach_0 + TINY)
+    last = 1.0 - length(x - ends.x1, y - ends.y1) / (2.0 * ends.reach_1 + TINY)
+    return ends.off_0 * max(first, 0.0) + ends.off_1 * max(last, 0.0)
+
+
+@njit()
 def is_near(
     px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
 ) -> bool:
@@ -212,11 +422,11 @@ def with_rows(path: Floats, source: Ints, rows: int) -> tuple[Floats, Ints]:
 
 @njit()
 def worst_probe(
-    banks: Banks, px: float, py: float, qx: float, qy: float, tolerance: float
+    banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Return where (0 at p, 1 at q) the way is farthest off the trunk, and the trunk's point there.
 
-    Where no probe is off by more than the tolerance, or the worst cannot be moved: -1.
+    Where no probe is off by more than is allowed, or the worst cannot be moved: -1.
     """
     span = length(qx - px, qy - py)
     probes, k = 1, 0
@@ -235,6 +445,7 @@ def worst_probe(
         if abs(lean.value) <= tolerance:
             continue
         _, _, off = way_to_level(lean, x, y)
+        off -= allowance(ends, x, y)
         if off > worst:
             worst, at, wx, wy, worst_lean = off, share, x, y, lean
     if at > 0.0:
@@ -258,30 +469,21 @@ def walk_by(
 
 
 @njit()
-def middle_of_door(
-    mesh: Mesh, banks: Banks, sleeve: Ints, turns: Ints, scale_x: float, scale_y: float
+def opposite_middle_turn(
+    mesh: Mesh,
+    banks: Banks,
+    turns: Ints,
+    px: float,
+    py: float,
+    qx: float,
+    qy: float,
+    scale_x: float,
+    scale_y: float,
 ) -> tuple[int, float, float]:
-    """Return the triangle and place of the middle of a door, moved onto the trunk; -1 if not.
-
-    The door is the longest of those that the middle one of the turns is a post of.
-    """
-    post = turns[turns.size // 2]
-    door, longest = -1, -1.0
-    for e in sleeve:
-        a, b = mesh.tri[e], mesh.tri[next_side(e)]
-        if post not in (a, b):
-            continue
-        span = length((mesh.x[a] - mesh.x[b]) * scale_x, (mesh.y[a] - mesh.y[b]) * scale_y)
-        if span > longest:
-            door, longest = e, span
-    if door < 0:
-        return -1, 0.0, 0.0
-    a, b = mesh.tri[door], mesh.tri[next_side(door)]
-    x, y = (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
-    lean = lean_at(banks, x * scale_x, y * scale_y)
-    is_found, mx, my = level_from(banks, lean, x * scale_x, y * scale_y)
-    if not is_found:
-        return -1, 0.0, 0.0
-    mx, my = mx / scale_x, my / scale_y
-    end, obstacle = walk(mesh, door // 3, -1, x, y, mx, my)
-    return end if obstacle == -1 else -1, mx, my
+    """Return ``opposite_turn`` for the middle one of the turns on the way from p to q."""
+    k = turns.size // 2
+    if k > 0:
+        px, py = mesh.x[turns[k - 1]], mesh.y[turns[k - 1]]
+    if k + 1 < turns.size:
+        qx, qy = mesh.x[turns[k + 1]], mesh.y[turns[k + 1]]
+    return opposite_turn(mesh, banks, turns[k], px, py, qx, qy, scale_x, scale_y)

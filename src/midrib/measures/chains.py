@@ -13,7 +13,8 @@ import shapely
 from numpy.typing import NDArray
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 
-from midrib.errors import GeometryTypeError
+from midrib.checks import check_flag
+from midrib.errors import GeometryTypeError, ParameterError
 from midrib.geodesy import lengths_at
 from midrib.kernels.clearance import clearances
 
@@ -78,8 +79,20 @@ def one(array: Geometries, name: str) -> Geometries:
 
 
 def flat_together(first: Geometries, second: Geometries) -> tuple[Geometries, Geometries, Any]:
-    """Two arrays, flat and as long, and an array of the shape they have together."""
-    both = np.broadcast_arrays(first, second)
+    """Two arrays, flat and as long, and an array of the shape they have together.
+
+    Raises
+    ------
+    ParameterError
+        If their shapes do not go together.
+    """
+    try:
+        both = np.broadcast_arrays(first, second)
+    except ValueError:
+        msg = (
+            f"arrays of shapes {first.shape} and {second.shape} do not broadcast, expected as many"
+        )
+        raise ParameterError(msg) from None
     return both[0].ravel(), both[1].ravel(), both[0]
 
 
@@ -111,6 +124,7 @@ def rings(areas: Geometries) -> Chains:
 
 def unit_lengths(geometries: Geometries, geographic: bool) -> "Floats":
     """(n, 2) metres in a unit of x and of y at the middle latitude of each geometry, or ones."""
+    check_flag(geographic, "geographic")
     if not geographic:
         return np.ones((geometries.size, 2))
     bounds = shapely.bounds(geometries)
@@ -119,6 +133,7 @@ def unit_lengths(geometries: Geometries, geographic: bool) -> "Floats":
 
 def step_vectors(points: "Floats", geographic: bool) -> "Floats":
     """Vectors from each point to the next, in metres if ``geographic``."""
+    check_flag(geographic, "geographic")
     steps = np.diff(points, axis=0)
     if geographic:
         middle = (points[:-1, 1] + points[1:, 1]) / 2.0

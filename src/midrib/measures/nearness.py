@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from midrib.checks import is_number, shown
 from midrib.errors import GeometryTypeError, ParameterError
 from midrib.kernels.frechet import frechet_distances
 from midrib.measures.chains import (
@@ -274,8 +275,8 @@ def frechet(p: "Floats", q: "Floats", at_least: float) -> float:
 
 def check_spacing(spacing: float | None) -> None:
     """Refuse a spacing that divides nothing."""
-    if spacing is not None and not 0.0 < spacing < np.inf:
-        msg = f"spacing is {spacing!r}, expected a positive and finite length"
+    if spacing is not None and not (is_number(spacing) and 0.0 < spacing < np.inf):
+        msg = f"spacing is {shown(spacing)}, expected a positive and finite length"
         raise ParameterError(msg)
 
 

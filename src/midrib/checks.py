@@ -1,0 +1,36 @@
+"""What options are made of, and how a value looks in a message."""
+
+from typing import Any
+
+import numpy as np
+
+from midrib.errors import ParameterError
+
+__all__ = ["check_flag", "is_number", "shown"]
+
+LONGEST = 60  # characters of a value in a message
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a real number, Python's or NumPy's; True and False are none."""
+    is_real = isinstance(value, int | float | np.integer | np.floating)
+    return is_real and not isinstance(value, bool)
+
+
+def check_flag(value: Any, name: str) -> None:
+    """Refuse what is neither True nor False.
+
+    Raises
+    ------
+    ParameterError
+        If it is something else, however true.
+    """
+    if not isinstance(value, bool | np.bool_):
+        msg = f"{name} is {shown(value)}, expected True or False"
+        raise ParameterError(msg)
+
+
+def shown(value: Any) -> str:
+    """Show a value in one line, its beginning if it is long."""
+    text = " ".join(repr(value).split())
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"

@@ -1,0 +1,127 @@
+"""Centred and symmetric curves: equally far from both banks, by definition and by closed forms."""
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from shapely import LineString, Polygon, box
+
+from midrib import Strip, collapse, measures, minimal_radii, split
+from midrib.types import Floats
+from tests.shapes import NAMED
+from tests.strategies import ribbons, simple_areas, with_holes
+
+strips = ribbons().map(split)
+
+
+def wedge(degrees: float, length: float = 10.0) -> Strip:
+    """Two banks of equal length from one tip, the main one along the x axis."""
+    angle = np.radians(degrees)
+    tip, along = (0.0, 0.0), (length * np.cos(angle), length * np.sin(angle))
+    return Strip(LineString([tip, (length, 0.0)]), LineString([tip, along]))
+
+
+def off_bisector(points: Floats, degrees: float) -> Floats:
+    """Distances of points from the bisector of a wedge."""
+    half = np.radians(degrees) / 2.0
+    off: Floats = np.abs(points[:, 0] * np.sin(half) - points[:, 1] * np.cos(half))
+    return off
+
+
+def away_from_ends(line: LineString, points: Floats, margin: float) -> NDArray[np.bool_]:
+    """Which points of a line are farther along it than a margin from both ends."""
+    at = shapely.line_locate_point(line, shapely.points(points))
+    inner: NDArray[np.bool_] = (at > margin) & (at < line.length - margin)
+    return inner
+
+
+@pytest.mark.parametrize("centring", ["symmetric", "centred"])
+@pytest.mark.parametrize("degrees", [5.0, 30.0, 60.0])
+def test_a_wedge_has_its_bisector(centring: str, degrees: float) -> None:
+    curve = minimal_radii(wedge(degrees), ends="caps", centring=centring, count=16)  # type: ignore[arg-type]
+    assert off_bisector(shapely.get_coordinates(curve.line), degrees) == pytest.approx(0, abs=1e-9)
+
+
+@given(strip=strips)
+@settings(max_examples=100)
+def test_vertices_are_equally_far_from_both_banks(strip: Strip) -> None:
+    curve = minimal_radii(strip, ends="caps", centring="centred")
+    assume(curve.loops_cut == 0)  # where a loop is cut there is a point that is on no radius
+    points = shapely.get_coordinates(curve.line)
+    width = 2.0 * strip.area.area / (strip.main.length + strip.auxiliary.length)
+    lean = measures.centredness(curve.line, strip)
+    # The line glides from an end that is off the trunk onto it.
+    ends = [LineString([line_end, line_end]) for line_end in curve.line.coords[:: len(points) - 1]]
+    glide = max(strip.main.distance(end) + strip.auxiliary.distance(end) for end in ends)
+    inner = away_from_ends(curve.line, points, 2.0 * max(glide, width))
+    assert lean[inner] == pytest.approx(0, abs=1e-3)
+
+
+@given(strip=strips)
+@settings(max_examples=60)
+def test_the_line_between_vertices_is_within_the_tolerance(strip: Strip) -> None:
+    width = 2.0 * strip.area.area / (strip.main.length + strip.auxiliary.length)
+    tolerance = width / 50.0
+    curve = minimal_radii(strip, ends="caps", centring="centred", tolerance=tolerance)
+    exact = minimal_radii(strip, ends="caps", centring="centred", tolerance=tolerance / 64.0)
+    between = shapely.get_coordinates(shapely.segmentize(curve.line, width / 16.0))
+    inner = shapely.points(between[away_from_ends(curve.line, between, 3.0 * width)])
+    assert (shapely.distance(inner, exact.line) <= 1.5 * tolerance).all()
+
+
+@given(
+    area=st.one_of(simple_areas, with_holes()), centring=st.sampled_from(["centred", "symmetric"])
+)
+@settings(max_examples=150)
+def test_centred_lines_stay_inside_and_simple(centring: str, area: Polygon) -> None:
+    line = collapse(area, centring=centring)
+    assert area.covers(line)
+    assert line.is_simple
+
+
+def test_an_island_belongs_to_the_bank_it_lies_towards() -> None:
+    """Past an island in mid-stream the line keeps to the middle of one channel."""
+    island = box(40, 3.5, 60, 6.5)
+    line = collapse(Polygon(box(0, 0, 100, 10).exterior, [island.exterior]))
+    beside = shapely.get_coordinates(line.intersection(box(42, 0, 58, 10)))
+    assert len(beside) > 0
+    assert np.abs(beside[:, 1] - 5.0) == pytest.approx(3.25, abs=10 / 200)
+
+
+def test_touching_holes_belong_to_the_bank_they_touch() -> None:
+    tooth = [(45, 0), (50, 4), (55, 2)]  # touches the lower bank at one vertex
+    area = Polygon([(0, 0), (45, 0), (100, 0), (100, 10), (0, 10)], [tooth])
+    line = collapse(area)
+    above = line.intersection(LineString([(50, 0), (50, 10)]))
+    assert above.y == pytest.approx(7.0, abs=0.3)
+
+
+@pytest.mark.parametrize("mean", ["radii", "proportional", "same-height", (1.0, 0.0)])
+def test_every_mean_of_parallel_banks_is_the_middle(mean: str) -> None:
+    strip = Strip(LineString([(0, 0), (9, 0)]), LineString([(0, 2), (9, 2)]))
+    curve = minimal_radii(strip, ends="caps", centring="symmetric", mean=mean)  # type: ignore[arg-type]
+    assert shapely.get_coordinates(curve.line)[:, 1] == pytest.approx(1.0)
+    assert curve.line.coords[0] == (0.0, 1.0)
+    assert curve.line.coords[-1] == (9.0, 1.0)
+
+
+@given(strip=strips)
+@settings(max_examples=60)
+def test_symmetric_curves_do_not_know_which_bank_is_main(strip: Strip) -> None:
+    swapped = Strip(strip.auxiliary, strip.main, strip.area)
+    one, other = (
+        minimal_radii(s, ends="caps", centring="symmetric").line for s in (strip, swapped)
+    )
+    assert one.hausdorff_distance(other) <= 1e-9 * one.length
+
+
+@pytest.mark.parametrize("name", ["L", "hook", "river_with_island"])
+def test_the_usual_call_is_the_construction_step_by_step(name: str) -> None:
+    area = NAMED[name]
+    curve = minimal_radii(split(area), ends="caps", centring="centred", end_clearance=None)
+    assert np.array_equal(
+        shapely.get_coordinates(collapse(area)), shapely.get_coordinates(curve.line)
+    )
+    assert curve.points.shape == curve.on_main.shape
