@@ -321,8 +321,17 @@ def test_an_end_without_an_edge_keeps_its_cap() -> None:
 def test_a_hook_that_cannot_be_cut_stays() -> None:
     points = np.array([(0.0, 0.0), (0.0, 1.0), (3.0, 1.0), (3.0, -1.0), (1.0, -0.1), (1.0, 0.5)])
     chain = Chain(points.copy())
-    chain.unhook(0, box(-5, -5, 5, 5), 2.0)
+    chain.unhook(0, box(-5, -5, 5, 5), np.array([(-2.0, 2.0), (0.0, 0.0), (2.0, -2.0)]))
     assert (chain.points == points).all()
+
+
+def test_bends_beside_a_long_oblique_edge_are_no_hooks() -> None:
+    points = np.array([(0.0, 0.0), (5.0, 0.0), (5.0, 0.8), (12.0, 0.8)])
+    across, oblique = ([(-x, -10.0), (x, 10.0)] for x in (0.0, 100.0))
+    for edge, count in ((across, 2), (oblique, 4)):
+        chain = Chain(points.copy())
+        chain.unhook(0, box(-20, -20, 20, 20), np.array(edge))
+        assert len(chain.points) == count
 
 
 def test_ways_end_in_vertices_but_for_rounding() -> None:

@@ -289,11 +289,10 @@ def straightened(plan: Plan, lines: Lines) -> Lines:
     chains = {i: Chain.of(line) for i, line in enumerate(lines) if line is not None}
     for contact in plan.contacts:
         contact.chosen = {i: end for i, end in contact.chosen.items() if plan.ends[i] is not None}
-        reach = float(np.abs(contact.edge.points - contact.middle).max())
         for i, end in contact.chosen.items():
             if i in chains:
                 interrupts.check()
-                chains[i].unhook(end, plan.areas[i], reach)
+                chains[i].unhook(end, plan.areas[i], contact.edge.points)
     return [chains[i].line() if i in chains else None for i in range(len(lines))]
 
 

@@ -51,15 +51,20 @@ class Chain:
         """Move an end to a point, which it is but for rounding."""
         self.points[-end, : point.size] = point
 
-    def unhook(self, end: int, area: Polygon, reach: float) -> None:
-        """Straighten a line that turns sharply within ``reach`` of an end, if the area allows it.
+    def unhook(self, end: int, area: Polygon, edge: Floats) -> None:
+        """Straighten a line that turns sharply near an end, if the area allows it.
 
-        Where an edge is a part of a cap, the last radius crosses in the middle of the cap.
+        Where an edge is a part of a cap, the last radius crosses in the middle of the cap. Near is
+        within half the edge as the line sees it that arrives there: a long edge that runs
+        obliquely across the area is wider than the area.
         """
         points = self.points if end == 0 else self.points[::-1]
         plane = points[:, :2]
-        far = np.abs(plane - plane[0]).max(axis=1) > reach
-        k = int(np.argmax(far))
+        far = np.hypot(*(plane - plane[0]).T)
+        k = int(np.argmax(far > np.hypot(*(edge - plane[0]).T).max()))
+        if k:
+            x, y = (plane[k] - plane[0]) / far[k]
+            k = int(np.argmax(far > np.ptp(edge @ (y, -x)) / 2.0))
         if k < 2:
             return
         steps = np.diff(plane[: k + 1], axis=0)
