@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from midrib import measures
-    from midrib.curves.collapse import Problem, collapse
+    from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Curve",
+    "Joint",
     "Problem",
     "Profile",
     "SpaceCurve",
@@ -34,6 +35,7 @@ __all__ = [
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
     "SpaceCurve": "midrib.curves.space",

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
     Geometries = np.ndarray[tuple[int], np.dtype[np.object_]]
 
-__all__ = ["Profile", "add_widths", "profile", "profiles_of"]
+__all__ = ["Profile", "add_widths", "profile", "profiles_of", "with_m"]
 
 WHOLE = 2.0**-40  # a length is a whole number of intervals to within this share
 MOST_STATIONS = 50_000_000

@@ -186,8 +186,11 @@ def divide(
     along: LineString | None = None,
     start: "Position | None" = None,
     end: "Position | None" = None,
+    ends: tuple[End, End] | None = None,
 ) -> Layout:
     """Divide an area by whatever hint there is; see ``split``."""
+    if ends is not None:
+        return lay_out_ends(boundary_of(rings, height), *ends, scale)
     if along is None and start is None and end is None:
         return lay_out_proposed(rings, height, scale)
     boundary = boundary_of(rings, height)

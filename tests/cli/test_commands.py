@@ -267,6 +267,87 @@ def test_figures_are_drawn(case: str, midrib: Runner, tmp_path: Path) -> None:
     assert "<svg" in figure.read_text()
 
 
+@pytest.mark.parametrize("ending", ["gpkg", "parquet", "shp"])
+def test_joints_are_written_beside_the_lines(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    aside = "POLYGON ((40 0, 50 0, 50 -70, 40 -70, 40 0))"
+    source = write(tmp_path / "in.gpkg", [STRIP, None, onwards, aside])
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("collapse", source, out, "--connect", "--out-layer", "lines")
+    assert outcome.code == 0, outcome.err
+    assert "1 joints end to end, 1 on the side, 0 shared edges without" in outcome.err
+    place, layer = (
+        (out, "lines_joints")
+        if ending == "gpkg"
+        else (tmp_path / f"out_joints.{ending}", "out_joints")
+    )
+    _, rows, points = read_all(place, layer)
+    assert rows["area"].to_pylist() == [0, 3]
+    assert rows["other"].to_pylist() == [2, 0]
+    assert rows["kind"].to_pylist() == ["end to end", "side"]
+    assert [(p.x, p.y) for p in points] == [(90.0, 10.0), (45.0, 10.0)]
+    _, attributes, lines = read_all(out, "lines" if ending == "gpkg" else "out")
+    assert attributes["status"].to_pylist() == ["ok", "no geometry", "ok", "ok"]
+    assert lines[0].coords[-1] in {lines[2].coords[0], lines[2].coords[-1]}
+
+
+def test_joined_lines_are_tended_and_measured_in_their_own_areas(
+    midrib: Runner, tmp_path: Path
+) -> None:
+    aside = "POLYGON ((40 0, 50 0, 50 -70, 40 -70, 40 0))"
+    source, out = write(tmp_path / "in.gpkg", [STRIP, aside]), tmp_path / "out.gpkg"
+    options = ["--connect", "--smooth", "--width", "m"]
+    assert midrib("collapse", source, out, *options).code == 0
+    _, attributes, lines = read_all(out)
+    assert (45.0, 10.0) in {place[:2] for place in lines[0].coords}
+    assert (45.0, 10.0) in {lines[1].coords[k][:2] for k in (0, -1)}
+    assert attributes["length"].to_pylist() == [90.0, 80.0]
+    assert attributes["width_max"].to_pylist() == [20.0, 10.0]
+    m = shapely.get_coordinates(lines[1], include_m=True)[:, 2]
+    assert m.max() == 10.0
+    assert m[[0, -1]].tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("ending", ["shp", "gdb"])
+def test_joints_stay_apart_from_refused_features_of_several_kinds(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    source = write(tmp_path / "in.geojson", [STRIP, "POINT (1 1)", onwards, BOW_TIE])
+    out = tmp_path / f"out.{ending}"
+    for again in ([], ["--overwrite"]):
+        outcome = midrib("collapse", source, out, "--connect", *again)
+        assert outcome.code == 1, outcome.err
+        assert "1 joints end to end" in outcome.err
+        for name, count in {"_refused": 1, "_refused_points": 1, "_joints": 2}.items():
+            layer = f"some{name}" if ending == "gdb" else f"out{name}"
+            place = out if ending == "gdb" else tmp_path / f"{layer}.shp"
+            assert layer in outcome.err
+            assert len(read_all(place, layer)[2]) == count
+
+
+def test_a_file_of_others_in_the_place_for_joints_is_kept(midrib: Runner, tmp_path: Path) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    other = write(tmp_path / "out_joints.parquet", [STRIP])
+    before = other.read_bytes()
+    out = tmp_path / "out.parquet"
+    outcome = midrib("collapse", source, out, "--connect", "--overwrite")
+    assert outcome.code == 2
+    assert "the place for joints, has no column 'reason'" in outcome.err
+    assert midrib("collapse", source, out, "--overwrite").code == 0
+    assert other.read_bytes() == before
+
+
+@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])
+def test_connect_excludes_what_places_ends(
+    option: list[str], midrib: Runner, tmp_path: Path
+) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP])
+    outcome = midrib("collapse", source, tmp_path / "out.gpkg", "--connect", *option)
+    assert outcome.code == 2
+    assert f"--connect excludes {option[0]}" in outcome.err
+
+
 @pytest.mark.parametrize("ending", ["gpkg", "fgb", "shp", "gdb", "sqlite", "csv"])
 def test_width_can_be_the_m_of_vertices(ending: str, midrib: Runner, tmp_path: Path) -> None:
     source, out = write(tmp_path / "in.gpkg", [STRIP, TWO, BENT]), tmp_path / f"out.{ending}"

@@ -26,6 +26,7 @@ app.command(
     "…_refused, with the reason.\n\n"
     "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
     epilog="Examples:\n\nmidrib collapse rivers.gpkg out.gpkg --spacing 5m\n\n"
+    "midrib collapse roads.gpkg out.gpkg --connect\n\n"
     "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)
 app.command(

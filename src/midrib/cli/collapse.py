@@ -152,6 +152,16 @@ def collapse(
             rich_help_panel=LINE,
         ),
     ] = None,
+    connect: Annotated[
+        bool,
+        typer.Option(
+            "--connect",
+            metavar="",
+            help="Lines of areas that share an edge meet; joints, and edges without one, go to a "
+            "layer, or a file, …_joints.",
+            rich_help_panel=LINE,
+        ),
+    ] = False,
     simplify: Annotated[
         str | None,
         typer.Option(
@@ -211,7 +221,9 @@ def collapse(
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in
 
-    places = Places(source, out, figure)
+    if connect:
+        check_alone(main=main, ends=ends, figure=figure)
+    places = Places(source, out, figure, connect)
     places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
@@ -234,13 +246,24 @@ def collapse(
         check_options(method, options)
         guides = guides_for(main, source, features)
         results = Results(features, has_m=width is WidthPlace.m)
-        collapse_layer(results, method, options, guides, report)
+        collapse_layer(results, method, options, guides, report, connect=connect)
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
             draw(features, guides, options, figure)
     if results.n_refused:
         raise typer.Exit(1)
+
+
+def check_alone(*, main: str | None, ends: EndRule, figure: Path | None) -> None:
+    """Refuse options that ``--connect`` cannot be given with."""
+    others = {"--main": main is not None, "--ends": ends is not EndRule.caps}
+    others["--figure"] = figure is not None
+    for name, is_given in others.items():
+        if is_given:
+            reason = "a figure shows every area by itself" if figure else "joints place the ends"
+            msg = f"--connect excludes {name}: {reason}"
+            raise ParameterError(msg)
 
 
 def clearance(text: str, crs: str | None) -> str | float | None:

@@ -9,19 +9,21 @@ import shapely
 
 from midrib import measures
 from midrib.curves.aftercare import aftercare
-from midrib.curves.collapse import Problem, collapse
+from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
 from midrib.formats.writing import free_name
-from midrib.profiles import add_widths
+from midrib.profiles import add_widths, with_m
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from midrib.cli.guides import Guides
     from midrib.cli.report import Report
     from midrib.formats.reading import Batch, Geometries, Source
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
-__all__ = ["Results", "check_options", "collapse_layer"]
+__all__ = ["Results", "check_options", "collapse_layer", "joint_features"]
 
 NO_GEOMETRY = "no geometry"
 
@@ -36,6 +38,7 @@ class Results:
     lines: "list[Geometries]" = field(default_factory=list)
     refused_attributes: list[pa.Table] = field(default_factory=list)
     refused_areas: "list[Geometries]" = field(default_factory=list)
+    joints: list[Joint] = field(default_factory=list)
     total_length: float = 0.0
     n_features: int = 0
     n_lines: int = 0
@@ -56,29 +59,67 @@ def collapse_layer(
     options: dict[str, Any],
     guides: "Guides",
     report: "Report",
+    *,
+    connect: bool = False,
 ) -> None:
-    """Collapse all features of the results' layer, a batch at a time."""
+    """Collapse all features of a layer: a batch at a time, or all at once if lines are to meet."""
     source = results.source
     geographic = is_geographic(source.crs)
     report.start()
-    for batch in report.track(source.batches(), source.count):
+    batches = report.track(source.batches(), source.count)
+    for batch in [whole(batches)] if connect else batches:
         along, unreadable = guides.of(batch)
         lines, problems = collapse(
             batch.geometries,
             method,
             on_error="report",
-            along=along,
+            along=None if connect else along,
             geographic=geographic,
+            connect=connect,
             **options,
         )
+        results.joints += [p for p in problems if isinstance(p, Joint)]
+        problems = [p for p in problems if not isinstance(p, Joint)]
         lines[shapely.is_empty(lines)] = None
         refused = dict(batch.unreadable) | unreadable
         lines[list(unreadable)] = None
         status = statuses(batch, problems, refused)
-        add_lines(results, batch, lines, status=status, refused=refused, geographic=geographic)
+        add_lines(
+            results,
+            batch,
+            lines,
+            status=status,
+            refused=refused,
+            geographic=geographic,
+            connect=connect,
+        )
         add_refused(results, batch, refused)
         results.n_features += len(lines)
         results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
+
+
+def whole(batches: "Iterable[Batch]") -> "Batch":
+    """All features in one batch."""
+    parts = list(batches)
+    unreadable = {b.first + row: why for b in parts for row, why in b.unreadable.items()}
+    return parts[0]._replace(
+        attributes=pa.concat_tables([b.attributes for b in parts]),
+        geometries=np.concatenate([b.geometries for b in parts]),
+        unreadable=unreadable,
+    )
+
+
+def joint_features(joints: list[Joint]) -> "tuple[pa.Table, Geometries]":
+    """Rows about joints, and edges without one, and their points."""
+    points = np.empty(len(joints), dtype=object)
+    points[:] = [joint.point for joint in joints]
+    columns = {
+        "area": pa.array([joint.index for joint in joints], type=pa.int64()),
+        "other": pa.array([joint.other for joint in joints], type=pa.int64()),
+        "kind": pa.array([joint.kind for joint in joints], type=pa.string()),
+        "reason": pa.array([joint.reason for joint in joints], type=pa.string()),
+    }
+    return pa.table(columns), points
 
 
 def statuses(batch: "Batch", problems: list[Problem], refused: dict[int, str]) -> list[str]:
@@ -102,6 +143,7 @@ def add_lines(
     status: list[str],
     refused: dict[int, str],
     geographic: bool,
+    connect: bool,
 ) -> None:
     """Keep the features that have a line, and those that never had a geometry."""
     keep = ~shapely.is_missing(lines)
@@ -109,18 +151,50 @@ def add_lines(
     rows = np.flatnonzero(keep)
     lines, areas = lines[rows], batch.geometries[rows]
     length = measures.length(lines, geographic=geographic)
+    own = pieces_inside(lines, areas) if connect else lines
     columns = {
         "length": numbers(length),
-        "width_mean": numbers(measures.mean_width(lines, areas, geographic=geographic)),
-        "width_max": numbers(measures.largest_width(lines, areas, geographic=geographic)),
+        "width_mean": numbers(measures.mean_width(own, areas, geographic=geographic)),
+        "width_max": numbers(measures.largest_width(own, areas, geographic=geographic)),
         "status": pa.array([status[i] for i in rows], type=pa.string()),
     }
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))
     if results.has_m:
         lines = add_widths(lines, areas, geographic=geographic)
+        lines = without_width_outside(lines, areas) if connect else lines
     results.lines.append(lines)
     results.n_lines += int(np.count_nonzero(~shapely.is_missing(lines)))
     results.total_length += float(np.nansum(length))
+
+
+def pieces_inside(lines: "Geometries", areas: "Geometries") -> "Geometries":
+    """Lines but for what leads to joints in other areas; what an area does not cover is cut off.
+
+    An area that is not valid keeps the whole line.
+    """
+    pieces = lines.copy()
+    for i in leaving(lines, areas):
+        parts = shapely.get_parts(shapely.intersection(lines[i], areas[i]))
+        parts = parts[shapely.get_dimensions(parts) == 1]
+        pieces[i] = shapely.multilinestrings(parts) if parts.size else None
+    return pieces
+
+
+def without_width_outside(lines: "Geometries", areas: "Geometries") -> "Geometries":
+    """Lines with M 0 where they lead to joints in other areas."""
+    measured = lines.copy()
+    for i in leaving(lines, areas):
+        rows = shapely.get_coordinates(lines[i], include_m=True)
+        is_inside = shapely.intersects_xy(areas[i], rows[:, 0], rows[:, 1])
+        measured[i] = with_m(lines[i], np.where(is_inside, rows[:, 2], 0.0))
+    return measured
+
+
+def leaving(lines: "Geometries", areas: "Geometries") -> "Ints":
+    """Which lines their areas do not cover, where these are valid."""
+    known = np.flatnonzero(~shapely.is_missing(lines) & shapely.is_valid(areas))
+    leaves: Ints = known[~shapely.covers(areas[known], lines[known])]
+    return leaves
 
 
 def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> None:

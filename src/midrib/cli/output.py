@@ -1,11 +1,13 @@
 """Where the results of ``midrib collapse`` go: lines, refused areas, a figure, a summary."""
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
 
+from midrib.cli.job import joint_features
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 __all__ = ["Places", "draw"]
 
 LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
-REASON = "reason"  # the column that every layer of refused areas has
+REASON = "reason"  # the column that every layer of refused areas, or of joints, has
 KILO = 1000.0
 MANY = 10_000.0  # from so many metres on, lengths are in kilometres
 
@@ -40,13 +42,29 @@ class Places(NamedTuple):
     source: Path
     out: Path
     figure: Path | None
+    connect: bool = False
 
     @property
     def refused(self) -> Path:
         """File for refused areas: OUT where its format has layers, else one beside it."""
+        return self.beside("refused")
+
+    @property
+    def joints(self) -> Path:
+        """File for joints, likewise."""
+        return self.beside("joints")
+
+    def beside(self, name: str) -> Path:
+        """File for a second layer."""
         if format_of(self.out).has_layers:
             return self.out
-        return self.out.with_name(f"{self.out.stem}_refused{self.out.suffix}")
+        return self.out.with_name(f"{self.out.stem}_{name}{self.out.suffix}")
+
+    @property
+    def all(self) -> list[Path]:
+        """Every file for features that a run may write, OUT first, each once."""
+        joints = [self.joints] if self.connect else []
+        return [*dict.fromkeys([self.out, *self.all_refused.values(), *joints])]
 
     @property
     def all_refused(self) -> dict[str, Path]:
@@ -63,8 +81,8 @@ class Places(NamedTuple):
         ------
         ParameterError
             If OUT has an unknown ending or no place for M values that are needed, is IN, or exists
-            and is not to be overwritten; or if there is a file in the place for refused areas that
-            an earlier run has not written.
+            and is not to be overwritten; or if there is a file in the place for refused areas or
+            joints that an earlier run has not written.
         """
         if not format_of(self.out).has_m and needs_m:
             msg = (
@@ -72,16 +90,16 @@ class Places(NamedTuple):
                 f"{', '.join(endings_with_m())} with --width m"
             )
             raise ParameterError(msg)
-        places = {self.out, *self.all_refused.values()}
-        for path in places:
+        for path in self.all:
             if self.source.exists() and path.exists() and self.source.samefile(path):
                 msg = f"OUT {str(path)!r} is IN, expected another file"
                 raise ParameterError(msg)
-        check_free(sorted(places), "OUT", overwrite=overwrite)
-        for path in places - {self.out}:
+        check_free(self.all, "OUT", overwrite=overwrite)
+        for path in self.all[1:]:
             if path.exists() and not self.may_replace(path):
+                what = "joints" if path == self.joints else "refused areas"
                 msg = (
-                    f"{str(path)!r}, the place for refused areas, has no column {REASON!r} and so "
+                    f"{str(path)!r}, the place for {what}, has no column {REASON!r} and so "
                     "is no output of an earlier run, expected it elsewhere"
                 )
                 raise ParameterError(msg)
@@ -90,7 +108,7 @@ class Places(NamedTuple):
             check_free([self.figure], "--figure", overwrite=overwrite)
 
     def may_replace(self, path: Path) -> bool:
-        """Whether a file has the refused areas of an earlier run; drawings do not tell."""
+        """Whether a file has refused areas or joints of an earlier run; drawings do not tell."""
         names = column_names(path)
         return format_of(path).is_drawing or any(n.lower().startswith(REASON) for n in names)
 
@@ -106,7 +124,7 @@ class Places(NamedTuple):
             source.crs,
         )
         # A drawing does not tell whether an earlier run has made it: it stays.
-        stale = [] if format_of(self.out).is_drawing else [*self.all_refused.values()]
+        stale = [] if format_of(self.out).is_drawing else self.all[1:]
         with staged(self.out.parent, stale=stale) as stage:
             notes, where = write_layer(stage / self.out.name, lines), []
             if results.n_refused:
@@ -121,7 +139,13 @@ class Places(NamedTuple):
                 for kind, some in apart.items():
                     path = self.all_refused.get(kind, self.out)
                     notes += write_layer(stage / path.name, some)
-                    where.append(f"layer {some.layer} of {path}" if path == self.out else str(path))
+                    where.append(self.where(some.layer, path))
+            if self.connect:
+                table, points = joint_features(results.joints)
+                joints = lines._replace(
+                    layer=f"{layer}_joints", attributes=table, geometries=points, kind="Point"
+                )
+                notes += write_layer(stage / self.joints.name, joints)
         if format_of(self.out).is_drawing and not where and self.refused.exists():
             notes.append(f"{self.refused} was there before, it is left as it was")
         for note in dict.fromkeys(notes):
@@ -130,6 +154,12 @@ class Places(NamedTuple):
         report.say(f"written to {self.out}")
         if results.n_refused:
             report.say(f"refused areas, with reasons, in {' and '.join(where)}")
+        if self.connect:
+            report.say(f"{joints_text(results)}, in {self.where(f'{layer}_joints', self.joints)}")
+
+    def where(self, layer: str, path: Path) -> str:
+        """Say where a second layer is."""
+        return f"layer {layer} of {path}" if path == self.out else str(path)
 
 
 def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Path) -> None:
@@ -154,6 +184,15 @@ def summary(results: "Results", seconds: float) -> str:
     return (
         f"{results.n_lines} lines of {results.n_features} features, {results.n_refused} refused, "
         f"{results.n_repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
+    )
+
+
+def joints_text(results: "Results") -> str:
+    """Count joints."""
+    made = Counter(joint.kind for joint in results.joints)
+    return (
+        f"{made['end to end']} joints end to end, {made['side']} on the side, "
+        f"{made['none']} shared edges without"
     )
 
 

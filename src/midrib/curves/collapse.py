@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiLineString, MultiPolygon, Polygon
+from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from midrib import interrupts
 from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
-from midrib.curves.methods import Finder, finder_of
+from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
+from midrib.curves.methods import Finder, Found, finder_of
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
@@ -23,6 +24,7 @@ from midrib.errors import (
     TooManyStationsError,
 )
 from midrib.geodesy import degree_lengths
+from midrib.layout import Scale
 from midrib.ragged import pack_areas
 from midrib.repair import overlaps, repaired
 from midrib.strip import PLANE
@@ -30,9 +32,12 @@ from midrib.strip import PLANE
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from midrib.ends import End
+    from midrib.types import Floats, Ints
+
     Areas = NDArray[np.object_]
 
-__all__ = ["Problem", "collapse"]
+__all__ = ["Joint", "Problem", "collapse"]
 
 
 @dataclass(frozen=True)
@@ -41,8 +46,18 @@ class Problem:
 
     index: Any  # position of the area, or its label in a GeoSeries
     part: int  # of a MultiPolygon, else 0
-    status: Literal["refused", "repaired", "loops cut"]
+    status: Literal["refused", "repaired", "loops cut", "joint", "no joint"]
     reason: str
+
+
+@dataclass(frozen=True)
+class Joint(Problem):
+    """What has become of an edge that two areas share: a joint of their lines, or none."""
+
+    other: Any  # the second area, as ``index``
+    other_part: int
+    point: Point  # where the lines meet, or the middle of the edge
+    kind: Literal["end to end", "side", "none"]  # side: the line of ``index`` ends on the other's
 
 
 def collapse(
@@ -52,6 +67,7 @@ def collapse(
     on_error: Literal["raise", "report"] = "raise",
     along: Any = None,
     geographic: bool | None = None,
+    connect: bool = False,
     simplify: float | str | None = None,
     smooth: bool = False,
     **options: Any,
@@ -74,6 +90,9 @@ def collapse(
         Whether coordinates are degrees of longitude and latitude. Lengths are then in metres; the
         line is constructed in a plane that is true to scale at the area's middle latitude. Taken
         from the CRS of a GeoSeries, otherwise False.
+    connect : bool, default False
+        Whether the lines of areas that share an edge meet: in its middle if it is at an end of
+        both, else the line of the one goes on to the line of the other. See the notes.
     simplify : float or str, optional
         Leave out vertices as long as the line stays within this distance of the full one: a
         length in coordinate units, in metres if geographic; or text, a share of the mean width
@@ -110,6 +129,16 @@ def collapse(
     the repaired area where one was repaired. So are simplified and smoothed lines, which keep their
     ends and do not meet themselves: where a shorter way would leave the area, the vertices stay.
 
+    With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
+    proposes: an edge that covers half a flat end or is half on it, or is within half a width of
+    another end; unless the area reaches less than half as far from it as it is long. It also looks
+    at edges within a width of its ends (three, if across) that are ends of its neighbours. Of
+    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by
+    bit. It is on the edge but for rounding, so that lines are covered by the areas of both. They
+    are simplified and smoothed as far as the edges, and keep their joints.
+    ``"report"`` adds a ``Joint`` for each shared edge, with the reason where there is none. Edges
+    are shared where boundaries are not farther apart than their coordinates are rounded.
+
     Examples
     --------
     >>> collapse(box(0, 0, 9, 2)).length
@@ -122,6 +151,11 @@ def collapse(
         raise ParameterError(msg)
     if geographic is not None:
         check_flag(geographic, "geographic")
+    check_flag(connect, "connect")
+    ends = options.get("ends", "caps")
+    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
+        msg = "connect places the ends of lines, give it without along and ends"
+        raise ParameterError(msg)
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -132,9 +166,8 @@ def collapse(
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
     with interrupts.deferred():
-        lines = collapse_all(
-            array.ravel(), find, guides(along, array.size), bool(geographic), log, care
-        )
+        flat, along = array.ravel(), guides(along, array.size)
+        lines = collapse_all(flat, find, along, bool(geographic), log, care, connect=connect)
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -147,6 +180,7 @@ class Log:
     def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
         self.problems: list[Problem] = []
         self.labels, self.strict = labels, strict
+        self.refused: set[tuple[int, int]] = set()  # areas by position, and parts
 
     def label(self, index: int) -> Any:
         """Name of an area: its label in a GeoSeries, else its position."""
@@ -156,6 +190,7 @@ class Log:
         """Record that an area (part) has no line, and why."""
         if self.strict or isinstance(error, TooManyStationsError):
             raise type(error)(self.sentence(index, part, str(error))) from error
+        self.refused.add((index, part))
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
     def note(
@@ -167,6 +202,18 @@ class Log:
         elif status == "repaired":
             message = self.sentence(index, part, f"repaired: {reason}")
             warnings.warn(message, RepairedAreaWarning, stacklevel=5)
+
+    def join(self, joined: Joined, one: "Part", two: "Part") -> None:
+        """Record what has become of an edge that two areas share."""
+        if self.strict:
+            return
+        name, x, y = f"areas[{self.label(two.area)}]", *joined.point
+        status: Literal["joint", "no joint"] = "no joint" if joined.kind == "none" else "joint"
+        reason = f"{joined.kind} with {name} at ({x:.12g}, {y:.12g})"
+        if joined.kind == "none":
+            reason = f"edge shared with {name} at ({x:.12g}, {y:.12g}): {joined.reason}"
+        of, other = (self.label(one.area), one.number), (self.label(two.area), two.number)
+        self.problems.append(Joint(*of, status, reason, *other, Point(x, y), joined.kind))
 
     def sentence(self, index: int, part: int, text: str) -> str:
         """Text with the area it is about."""
@@ -217,14 +264,19 @@ def collapse_all(
     geographic: bool,
     log: Log,
     care: Aftercare,
+    *,
+    connect: bool,
 ) -> "Areas":
     """Lines of a flat array of areas."""
     parts = list(valid_parts(areas, log))
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    full = lines_of(parts, find, along, geographic, log)
-    tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
+    if connect:
+        tended = connected_lines(parts, areas, find, geographic, log, care)
+    else:
+        full = lines_of(parts, find, along, geographic, log)
+        tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
     for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
@@ -289,15 +341,59 @@ def apart(parts: list[Part], log: Log) -> Iterator[Part]:
             yield part
 
 
+def connected_lines(
+    parts: list[Part],
+    areas: "Areas",
+    find: Finder,
+    geographic: bool,
+    log: Log,
+    care: Aftercare,
+) -> list[LineString | None]:
+    """Return the line of each part, None where it was refused; lines of neighbours meet.
+
+    After-care comes before joints: it keeps ends, and ways to other lines start there.
+    """
+    every = [*parts, *refused_parts(areas, log.refused - {part[:2] for part in parts})]
+    plan = plan_joints(polygons_of(every), len(parts), geographic=geographic)
+    prepared = [p._replace(polygon=area) for p, area in zip(parts, plan.areas, strict=False)]
+    lines = straightened(plan, lines_of(prepared, find, None, geographic, log, plan.ends))
+    lines = tend(lines, [part.polygon for part in prepared], care, geographic=geographic)
+    lines, joined = make_joints(plan, lines)
+    for row in joined:
+        log.join(row, *(every[i] for i in row.areas))
+    return lines
+
+
+def refused_parts(areas: "Areas", refused: set[tuple[int, int]]) -> Iterator[Part]:
+    """Polygons that were refused, if their coordinates are finite; others share edges with them."""
+    for i, number in sorted(refused):
+        area = areas[i]
+        if isinstance(area, Polygon | MultiPolygon):
+            polygon = area.geoms[number] if isinstance(area, MultiPolygon) else area
+            if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
+                yield Part(i, number, polygon)
+
+
+def polygons_of(parts: list[Part]) -> "Areas":
+    """Array of the polygons of parts."""
+    polygons: Areas = np.empty(len(parts), dtype=object)
+    polygons[:] = [part.polygon for part in parts]
+    return polygons
+
+
 def lines_of(
-    parts: list[Part], find: Finder, along: "Areas | None", geographic: bool, log: Log
+    parts: list[Part],
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    joints: "list[tuple[End, End] | None] | None" = None,
 ) -> list[LineString | None]:
     """Return the line of each part, None where it was refused."""
     lines: list[LineString | None] = [None] * len(parts)
     if not parts:
         return lines
-    polygons: Areas = np.empty(len(parts), dtype=object)
-    polygons[:] = [part.polygon for part in parts]
+    polygons = polygons_of(parts)
     packed = pack_areas(polygons)
     bounds = shapely.bounds(polygons) if geographic else None
     for i, part in enumerate(parts):
@@ -305,7 +401,7 @@ def lines_of(
         guide = None if along is None else along[part.area]
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
-            found = find(*packed.rings(i), guide, scale)
+            found = find_between(find, joints, i, *packed.rings(i), guide, scale)
         except MidribError as error:
             log.refuse(part.area, part.number, error)
             continue
@@ -316,3 +412,21 @@ def lines_of(
             points = np.column_stack([points, found.height])
         lines[i] = shapely.linestrings(points)
     return lines
+
+
+def find_between(
+    find: Finder,
+    joints: "list[tuple[End, End] | None] | None",
+    i: int,
+    coordinates: "Floats",
+    offsets: "Ints",
+    guide: Any,
+    scale: Scale,
+) -> Found:
+    """Line of area i between the ends it is to have; where there is none, strike these out."""
+    if joints is not None and joints[i] is not None:
+        try:
+            return find(coordinates, offsets, guide, scale, joints[i])
+        except MidribError:
+            joints[i] = None
+    return find(coordinates, offsets, guide, scale)

@@ -1,7 +1,7 @@
 """The methods that collapse areas, in one registry."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN, Construction
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from shapely import LineString
 
+    from midrib.ends import End
     from midrib.types import Floats, Ints
 
 __all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of", "methods"]
@@ -29,7 +30,18 @@ class Found(NamedTuple):
     loops: int
 
 
-Finder: TypeAlias = "Callable[[Floats, Ints, LineString | None, Scale], Found]"
+class Finder(Protocol):
+    """Finds the line of one area."""
+
+    def __call__(
+        self,
+        coordinates: "Floats",
+        offsets: "Ints",
+        along: "LineString | None",
+        scale: Scale,
+        joints: "tuple[End, End] | None" = None,
+    ) -> Found:
+        """Return the line; ``joints`` are the ends it is to have, if they are given."""
 
 
 @dataclass(frozen=True)
@@ -67,14 +79,19 @@ def minimal_radii_finder(**options: Any) -> "Finder":
     is_usual = (options | plain).items() <= USUAL.items()  # arrays would not compare
 
     def find(
-        coordinates: "Floats", offsets: "Ints", along: "LineString | None", scale: Scale
+        coordinates: "Floats",
+        offsets: "Ints",
+        along: "LineString | None",
+        scale: Scale,
+        joints: "tuple[End, End] | None" = None,
     ) -> Found:
-        if is_usual and along is None and coordinates.shape[1] == 2:
+        is_free = along is None and joints is None
+        if is_usual and is_free and coordinates.shape[1] == 2:
             is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
             if is_done:
                 return Found(points, None, loops)
         rings, height = normalised(coordinates, offsets)
-        _, path = construction.of(divide(rings, height, scale, along=along))
+        _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
         return Found(path.points, path.height, path.loops)
 
     return find
