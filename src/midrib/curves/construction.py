@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from midrib.checks import is_number, shown
 from midrib.curves.averaging import Mean, average, check_mean
 from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
+from midrib.curves.limit import draw_limit
 from midrib.curves.radii import EndClearance, Radii, draw_radii
 from midrib.curves.stations import Skip, StationRule
 from midrib.errors import InvalidAreaError, ParameterError
@@ -38,7 +39,7 @@ class Construction:
         count: int | None = None,
         percent: float | None = None,
         vertices: bool | None = None,
-        tolerance: float | None = None,
+        tolerance: float | str | None = None,
         stations: "ArrayLike | None" = None,
         skip: Skip | None = None,
         ends: EndRule = "main",
@@ -47,12 +48,19 @@ class Construction:
         mean: Mean | None = None,
     ) -> None:
         self.ends, self.end_clearance = check_ends(ends, end_clearance)
-        check_centring(centring, tolerance)
+        check_centring(centring)
+        self.tolerance = check_tolerance(tolerance)
+        self.follows_limit = tolerance is not None and centring != "centred"
+        if self.follows_limit:
+            refuse_with_tolerance(
+                spacing=spacing, count=count, percent=percent, vertices=vertices, stations=stations,
+                skip=skip,
+            )  # fmt: skip
         check_mean(mean, centring)
         if vertices is None:
             vertices = centring != "centred"  # the trunk is probed between radii anyway
         self.rule = StationRule(spacing, count, percent, vertices, stations, skip)
-        self.centring, self.tolerance, self.mean = centring, tolerance, mean
+        self.centring, self.mean = centring, mean
 
     def of(self, layout: "Layout") -> "tuple[Radii, Path]":
         """Radii and the chain that is made from them.
@@ -76,30 +84,63 @@ class Construction:
                 self.mean,
             )
         if self.centring == "centred":
-            within = CENTRED_WITHIN * layout.mean_width
-            within = within if self.tolerance is None else float(self.tolerance)
-            return radii, join_middles(layout, radii, ends, centred_within=within)
+            return radii, join_middles(layout, radii, ends, centred_within=self.within(layout))
         return radii, join_middles(layout, radii, ends)
 
     def radii(self, layout: "Layout") -> Radii:
         """Radii from a layout's main curve."""
-        radii = draw_radii(layout, self.rule, self.end_clearance)
+        if self.follows_limit:
+            radii = draw_limit(layout, self.within(layout), self.end_clearance)
+        else:
+            radii = draw_radii(layout, self.rule, self.end_clearance)
         if len(radii.points) == 0:
             msg = "no station of the main curve sees anything of the auxiliary curve"
             raise InvalidAreaError(msg)
         return radii
 
+    def within(self, layout: "Layout") -> float:
+        """Return the tolerance as a length."""
+        value, is_share = self.tolerance
+        return value * layout.mean_width if is_share else value
 
-def check_centring(centring: Any, tolerance: Any) -> None:
+
+def check_centring(centring: Any) -> None:
     """Refuse ways of centring that do not exist."""
     if not isinstance(centring, str) or centring not in CENTRINGS:
         msg = f"centring is {shown(centring)}, expected 'none', 'symmetric' or 'centred'"
         raise ParameterError(msg)
+
+
+def check_tolerance(tolerance: Any) -> tuple[float, bool]:
+    """Return the tolerance, and whether it is a share of the mean width.
+
+    Raises
+    ------
+    ParameterError
+        If it is neither a length nor a share.
+    """
     if tolerance is None:
-        return
-    if not is_number(tolerance) or not 0.0 <= tolerance < float("inf"):
-        msg = f"tolerance is {shown(tolerance)}, expected a length of 0 or more"
+        return CENTRED_WITHIN, True
+    is_share = isinstance(tolerance, str) and tolerance.strip().endswith("%")
+    try:
+        value = float(tolerance.strip().removesuffix("%")) / 100.0 if is_share else tolerance
+    except ValueError:
+        value = None
+    if not is_number(value) or not 0.0 <= value < float("inf"):
+        msg = (
+            f"tolerance is {shown(tolerance)}, expected a length of 0 or more, or a share of the "
+            "width: '1%'"
+        )
         raise ParameterError(msg)
-    if centring != "centred":
-        msg = f"tolerance goes with centring='centred', found centring={centring!r}"
-        raise ParameterError(msg)
+    return float(value), is_share
+
+
+def refuse_with_tolerance(**options: Any) -> None:
+    """Refuse options that choose stations: with a tolerance the limit curve chooses them."""
+    for name, value in options.items():
+        if value is not None:
+            msg = (
+                f"tolerance and {name} exclude each other unless centring is 'centred': the "
+                "tolerance chooses the stations"
+            )
+            raise ParameterError(msg)

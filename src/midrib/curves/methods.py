@@ -68,7 +68,9 @@ def construction_of_collapse(**options: Any) -> Construction:
     usual = USUAL
     centring = options.get("centring", "centred")
     if not isinstance(centring, str) or centring != "centred":
-        usual = {"ends": "caps", "skip": "bays"}
+        usual = {"ends": "caps"}
+        if options.get("tolerance") is None:
+            usual["skip"] = "bays"
     return Construction(**(usual | options))
 
 

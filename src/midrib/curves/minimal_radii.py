@@ -107,7 +107,7 @@ def minimal_radii(
     count: int | None = None,
     percent: float | None = None,
     vertices: bool | None = None,
-    tolerance: float | None = None,
+    tolerance: float | str | None = None,
     stations: "ArrayLike | None" = None,
     skip: Skip | None = None,
     ends: EndRule = "main",

@@ -23,7 +23,18 @@ from midrib.kernels.triangulation import next_side, previous_side
 from midrib.kernels.windows import Spot, add_window, first_windows, part_window, with_room
 from midrib.types import Floats, Ints
 
-__all__ = ["View", "keep_ties", "look", "new_view", "ray_meets_side", "sees"]
+__all__ = [
+    "WINDOWS_PER_SIDE",
+    "View",
+    "keep_ties",
+    "look",
+    "new_view",
+    "ray_meets_side",
+    "sees",
+    "squared_distance_to_side",
+    "twice",
+    "twice_ints",
+]
 
 WINDOWS_PER_SIDE = 64  # rays go forward only, so that a side is looked through once a hole at most
 
