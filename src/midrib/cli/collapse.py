@@ -120,8 +120,9 @@ def collapse(
         str | None,
         typer.Option(
             metavar="LENGTH",
-            help="How far off the middle a centred line may be; a 100th of the mean width unless "
-            "you say otherwise.",
+            help="How far off the middle a centred line may be, 1% of the mean width unless you "
+            "say otherwise; of other lines how far off the limit of ever denser radii. A length, "
+            "or a share of the width: 1%.",
             rich_help_panel=LINE,
         ),
     ] = None,
@@ -235,8 +236,8 @@ def collapse(
             "mean": mean and mean.value,
             "smooth": smooth or None,
             "spacing": spacing and length_in(spacing, features.crs, "--spacing"),
-            "tolerance": tolerance and length_in(tolerance, features.crs, "--tolerance"),
-            "simplify": simplify and deviation(simplify, features.crs),
+            "tolerance": tolerance and deviation(tolerance, features.crs, "--tolerance"),
+            "simplify": simplify and deviation(simplify, features.crs, "--simplify"),
         }
         options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
         options["centring"] = centring.value
@@ -279,14 +280,14 @@ def clearance(text: str, crs: str | None) -> str | float | None:
         raise ParameterError(msg) from None
 
 
-def deviation(text: str, crs: str | None) -> str | float:
-    """Read the deviation of a simplified line: a percentage as it stands, or a length."""
+def deviation(text: str, crs: str | None, option: str) -> str | float:
+    """Read how far a line may be from another: a percentage as it stands, or a length."""
     from midrib.formats.units import length_in
 
     if text.strip().endswith("%"):
         return text
     try:
-        return length_in(text, crs, "--simplify")
+        return length_in(text, crs, option)
     except ParameterError as error:
         msg = f"{error}, or a share of the width: 5%"
         raise ParameterError(msg) from None

@@ -103,7 +103,7 @@ def collapse(
     **options
         Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
         ``centring`` is ``"centred"`` and ``end_clearance`` None; with another centring stations
-        in bays are left out.
+        in bays are left out, unless a ``tolerance`` chooses the stations.
 
     Returns
     -------

@@ -1,5 +1,6 @@
 """How a curve is made from a strip: every option in one place, checked once, used many times."""
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from midrib.checks import is_number, shown
@@ -7,7 +8,7 @@ from midrib.curves.averaging import Mean, average, check_mean
 from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
 from midrib.curves.limit import draw_limit
 from midrib.curves.radii import EndClearance, Radii, draw_radii
-from midrib.curves.stations import Skip, StationRule
+from midrib.curves.stations import WHOLE, Skip, StationRule
 from midrib.errors import InvalidAreaError, ParameterError
 
 if TYPE_CHECKING:
@@ -122,10 +123,10 @@ def check_tolerance(tolerance: Any) -> tuple[float, bool]:
     if tolerance is None:
         return CENTRED_WITHIN, True
     is_share = isinstance(tolerance, str) and tolerance.strip().endswith("%")
-    try:
-        value = float(tolerance.strip().removesuffix("%")) / 100.0 if is_share else tolerance
-    except ValueError:
-        value = None
+    value = tolerance
+    if is_share:
+        with suppress(ValueError):
+            value = float(tolerance.strip().removesuffix("%")) / WHOLE
     if not is_number(value) or not 0.0 <= value < float("inf"):
         msg = (
             f"tolerance is {shown(tolerance)}, expected a length of 0 or more, or a share of the "

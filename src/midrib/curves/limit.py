@@ -15,7 +15,7 @@ from midrib.curves.stations import SAME_STATION
 from midrib.kernels import limit as kernel
 from midrib.kernels.stations import default_count, place_stations
 from midrib.layout import Layout
-from midrib.types import Floats
+from midrib.types import Floats, Ints
 
 __all__ = ["draw_limit"]
 
@@ -85,7 +85,7 @@ class Limits:
         return limits
 
 
-def first_to_keep(stations: Floats, station: Floats, arc: Floats) -> float:
+def first_to_keep(stations: Floats, station: Ints, arc: Floats) -> float:
     """First station, from a shared end, whose radius keeps half its distance or that has none.
 
     0 if that is the end itself, and if there is none.

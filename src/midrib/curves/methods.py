@@ -63,7 +63,8 @@ def construction_of_collapse(**options: Any) -> Construction:
     """Return the construction of ``collapse``, with its own defaults.
 
     The trunk does not enter bays, nor do its points collapse into a shared end; other curves leave
-    out stations in bays and keep the end clearance of ``minimal_radii``.
+    out stations in bays, unless a tolerance chooses the stations, and keep the end clearance of
+    ``minimal_radii``.
     """
     usual = USUAL
     centring = options.get("centring", "centred")

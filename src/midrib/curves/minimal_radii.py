@@ -134,9 +134,14 @@ def minimal_radii(
     vertices : bool, optional
         The vertices of the main curve are stations too, as the paper recommends: True unless
         the curve is ``"centred"``, which needs no station at every vertex.
-    tolerance : float, optional
-        How far, in coordinate units, a centred curve may be between its points from the line on
-        which both curves are equally far; a 100th of the mean width unless given.
+    tolerance : float or str, optional
+        How far the curve may be from what it stands for: a length in coordinate units, or a share
+        of the mean width as text, ``"1%"``. If centred, between its points from the line on which
+        both curves are equally far, a 100th of the mean width unless given. Otherwise from the
+        limit curve, which the chain of middles becomes as the interval of stations goes to 0, and
+        the limit curve from it: the tolerance then chooses the stations, as few as it can do with,
+        and excludes every other way to choose them. At 0 every event is a vertex: where Q turns
+        from one segment to the next, ties, comes in view or is lost.
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
@@ -187,6 +192,12 @@ def minimal_radii(
     of boxes; if the segment to it is not free, look out through the triangles for the nearest
     visible one. 3. Join the middles by shortest paths inside the area. 4. Cut loops, which only
     come up where Q travels back or the area has holes.
+    With a tolerance P looks from whole segments: 2. Windows that are open for an interval of
+    stations offer moving points, of which the lower envelope is Q; 3. knots that the tolerance
+    does not need are left out, a way at a time that is free and near all that it replaces.
+    Arcs of hyperbolas, behind vertices that a sight grazes, become chords within the tolerance,
+    but not within less than 1/16384 of the mean width. What is seen from one station and from none
+    next to it does not count.
     Nearly linear in vertices and stations. Signs are exact, so the line never leaves the area; S
     is halfway between P and Q, and as far from the main as from the auxiliary curve only where
     the main curve is straight and parallel. A sight along a wall ends where a hole touches it.

@@ -12,57 +12,40 @@ n / m   where a moving point E is on it, at u + (n / m) (v - u); n and m are lin
 
 So the squared distance |m (P - u) - n (v - u)|^2 / m^2 is a quotient of polynomials, and so is
 the difference of two; where they tie is a root of a polynomial of degree six at most.
+Everything is in lengths. A *motion* is one row of a table; its neighbours are handed over with it,
+since rows of their own would be slower than what is done with them.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.bernstein import DEGREE, new_halves, roots_inside
+from midrib.kernels.bernstein import DEGREE, roots_inside
 from midrib.kernels.boxtree import FOOT, GRAZE, VERTEX
-from midrib.kernels.chain import TIE_OF_COORDINATE, Chain
 from midrib.kernels.jit import njit
-from midrib.kernels.mesh import Mesh
-from midrib.kernels.triangulation import next_side
 from midrib.types import Floats, Ints
 
 __all__ = [
-    "Envelope",
-    "Scene",
+    "Motions",
     "Walk",
     "farthest_between",
     "has_room",
+    "is_idle",
     "is_same_motion",
     "lower_by",
-    "new_envelope",
+    "new_motions",
     "place_at",
-    "scene_of",
     "squared_distance",
-    "walk_along",
 ]
 
-MOST_TIES = 16  # of two motions: six, and what rounding makes of double ones
-
-
-class Scene(NamedTuple):
-    """A mesh, and where the auxiliary curve lies on it: of ``Mesh``, ``Chain`` and ``Goal``."""
-
-    tri: Ints
-    twin: Ints
-    x: Floats
-    y: Floats
-    segment: Ints  # for each half-edge the curve's segment on it, or -1
-    place: Ints  # for each mesh vertex its place on the curve, or -1
-    vertex: Ints
-    arc: Floats
-    scale_x: float
-    scale_y: float
-    tie: float
-    extent: float  # no two points are farther apart
+MOST_OFFERS = 64
+MOST_TIES = 24  # of two motions: six, and what rounding makes of double ones
+FROM, TO, N, M, U, RUN, FARTHEST = 0, 1, 2, 4, 6, 8, 10
+SIDE, KIND, GRAZED, FIRST_END, LAST_END = 0, 1, 2, 3, 4
 
 
 class Walk(NamedTuple):
-    """P walks from vertex a to vertex b, the ends of one side; coordinates in lengths."""
+    """P walks from vertex a to vertex b, the ends of one side."""
 
     a: int
     b: int
@@ -72,322 +55,285 @@ class Walk(NamedTuple):
     by: float
 
 
-class Envelope(NamedTuple):
-    """Pieces in order of t, and tables to work in that are kept from one side to the next.
+class Motions(NamedTuple):
+    """Rows: the envelope in order of t, room for the next one of the same size, offers."""
 
-    The tables of pieces have as many rows again for the next envelope.
-    """
-
-    piece: Floats  # (2 k, 7) from, to, n at 0 and 1, m at 0 and 1, square of the largest distance
-    at: Ints  # (2 k, 3) side, kind, vertex: of a VERTEX itself, of a GRAZE the one that is grazed
-    cuts: Floats
-    halves: Floats
-    vectors: Floats  # (3, 9) of one motion and of the other; the difference of their distances
+    row: Floats  # from, to, n at 0 and 1, m at 0 and 1, u, v - u, square of the largest distance
+    at: Ints  # side, kind, vertex (of a VERTEX itself, of a GRAZE the one that is grazed), u, v
+    work: Floats  # vectors of two motions, coefficients, ties; then parts of a polynomial
+    base: int  # where the next one begins
 
 
 @njit()
-def scene_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Scene:
-    """Prepare to look for a curve; O(n)."""
-    segment, place = np.full(mesh.tri.size, -1, np.intp), np.full(mesh.x.size, -1, np.intp)
-    for i in range(chain.vertex.size):
-        place[chain.vertex[i]] = i
-    for i in range(chain.side.size):
-        segment[chain.side[i]] = i
-    largest, low, high = 0.0, np.inf, -np.inf
-    for v in range(mesh.x.size):
-        x, y = mesh.x[v] * scale_x, mesh.y[v] * scale_y
-        largest = max(largest, abs(x), abs(y))
-        low, high = min(low, x, y), max(high, x, y)
-    return Scene(
-        mesh.tri,
-        mesh.twin,
-        mesh.x,
-        mesh.y,
-        segment,
-        place,
-        chain.vertex,
-        chain.arc,
-        scale_x,
-        scale_y,
-        TIE_OF_COORDINATE * largest,
-        2.0 * (high - low),
-    )
-
-
-@njit()
-def walk_along(scene: Scene, a: int, b: int) -> Walk:
-    """Walk from vertex a to vertex b."""
-    scale_x, scale_y = scene.scale_x, scene.scale_y
-    return Walk(
-        a, b,
-        scene.x[a] * scale_x, scene.y[a] * scale_y, scene.x[b] * scale_x, scene.y[b] * scale_y,
-    )  # fmt: skip
-
-
-@njit()
-def new_envelope(rows: int) -> Envelope:
+def new_motions(base: int) -> Motions:
     """Empty tables for so many pieces."""
-    return Envelope(
-        np.empty((2 * rows, 7)),
-        np.empty((2 * rows, 3), np.intp),
-        np.empty(MOST_TIES),
-        new_halves(),
-        np.empty((3, DEGREE + 3)),
+    rows = 2 * base + MOST_OFFERS
+    return Motions(
+        np.empty((rows, 11)), np.empty((rows, 5), np.intp), np.empty((72, MOST_TIES)), base
     )
 
 
-@njit(inline=True)
-def has_room(envelope: Envelope, count: int) -> bool:
-    """Whether the tables are large enough to lower so many pieces by another motion."""
-    return 2 * (MOST_TIES + 4) * (count + 1) <= envelope.piece.shape[0]
+@njit()
+def has_room(base: int, count: int) -> bool:
+    """Whether tables are large enough to lower so many pieces by another motion."""
+    return (MOST_TIES + 4) * (count + 1) <= base
 
 
 # -- one moving point ------------------------------------------------------------------------------
 
 
-@njit(inline=True)
-def place_at(piece: Floats, t: float) -> float:
+@njit()
+def place_at(row: Floats, k: int, t: float) -> float:
     """Where a moving point is on its side: 0 at u, 1 at v."""
-    n, m = piece[2] + t * (piece[3] - piece[2]), piece[4] + t * (piece[5] - piece[4])
+    n = row[k, 2] + t * (row[k, 3] - row[k, 2])
+    m = row[k, 4] + t * (row[k, 5] - row[k, 4])
     return min(max(n / m, 0.0), 1.0)
 
 
 @njit()
-def vectors_of(
-    scene: Scene, walk: Walk, piece: Floats, side: int, a: float, b: float, out: Floats
-) -> bool:
-    """Bernstein coefficients of m (P - u) - n (v - u) from a to b (six), and of m (two).
+def vectors_of(walk: Walk, row: Floats, k: int, a: float, b: float, out: Floats, i: int) -> bool:
+    """Write Bernstein coefficients of m (P - u) - n (v - u) from a to b, and of m, as row i.
 
-    Return whether m is one, so that the first two points are all there is: it is linear.
+    Three points and two numbers. Return whether m is one, so that it is linear: then the first two
+    points are all there is.
     """
-    u, v = scene.tri[side], scene.tri[next_side(side)]
-    ux, uy = scene.x[u] * scene.scale_x, scene.y[u] * scene.scale_y
-    dx, dy = scene.x[v] * scene.scale_x - ux, scene.y[v] * scene.scale_y - uy
-    from_x, from_y = walk.ax - ux, walk.ay - uy
-    run_x, run_y = walk.bx - walk.ax, walk.by - walk.ay
+    from_x, from_y = walk.ax - row[k, 6], walk.ay - row[k, 7]
+    run_x, run_y, dx, dy = walk.bx - walk.ax, walk.by - walk.ay, row[k, 8], row[k, 9]
     px, py, qx, qy = from_x + a * run_x, from_y + a * run_y, from_x + b * run_x, from_y + b * run_y
-    n_a, n_b = piece[2] + a * (piece[3] - piece[2]), piece[2] + b * (piece[3] - piece[2])
-    if piece[4] == 1.0 and piece[5] == 1.0:
-        out[0], out[1] = px - n_a * dx, py - n_a * dy
-        out[2], out[3] = qx - n_b * dx, qy - n_b * dy
+    n_a, n_b = row[k, 2] + a * (row[k, 3] - row[k, 2]), row[k, 2] + b * (row[k, 3] - row[k, 2])
+    if row[k, 4] == 1.0 and row[k, 5] == 1.0:
+        out[i, 0], out[i, 1] = px - n_a * dx, py - n_a * dy
+        out[i, 2], out[i, 3] = qx - n_b * dx, qy - n_b * dy
         return True
-    m_a, m_b = piece[4] + a * (piece[5] - piece[4]), piece[4] + b * (piece[5] - piece[4])
+    m_a, m_b = row[k, 4] + a * (row[k, 5] - row[k, 4]), row[k, 4] + b * (row[k, 5] - row[k, 4])
     n = (n_a + n_b) / 2.0
-    out[0], out[1] = m_a * px - n_a * dx, m_a * py - n_a * dy
-    out[2], out[3] = (m_a * qx + m_b * px) / 2.0 - n * dx, (m_a * qy + m_b * py) / 2.0 - n * dy
-    out[4], out[5] = m_b * qx - n_b * dx, m_b * qy - n_b * dy
-    out[6], out[7] = m_a, m_b
+    out[i, 0], out[i, 1] = m_a * px - n_a * dx, m_a * py - n_a * dy
+    out[i, 2], out[i, 3] = (
+        (m_a * qx + m_b * px) / 2.0 - n * dx,
+        (m_a * qy + m_b * py) / 2.0 - n * dy,
+    )
+    out[i, 4], out[i, 5] = m_b * qx - n_b * dx, m_b * qy - n_b * dy
+    out[i, 6], out[i, 7] = m_a, m_b
     return False
 
 
 @njit()
-def as_quadratic(w: Floats) -> None:
+def as_quadratic(w: Floats, i: int) -> None:
     """Raise the vectors of a plain point to those of one with m = 1."""
-    w[4], w[5] = w[2], w[3]
-    w[2], w[3] = (w[0] + w[4]) / 2.0, (w[1] + w[5]) / 2.0
-    w[6] = w[7] = 1.0
+    w[i, 4], w[i, 5] = w[i, 2], w[i, 3]
+    w[i, 2], w[i, 3] = (w[i, 0] + w[i, 4]) / 2.0, (w[i, 1] + w[i, 5]) / 2.0
+    w[i, 6] = w[i, 7] = 1.0
 
 
 @njit()
-def squared_distance(scene: Scene, walk: Walk, piece: Floats, side: int, t: float) -> float:
+def squared_distance(walk: Walk, row: Floats, k: int, t: float) -> float:
     """Squared distance from P to a moving point."""
-    u, v = scene.tri[side], scene.tri[next_side(side)]
-    share = place_at(piece, t)
-    ux, uy = scene.x[u] * scene.scale_x, scene.y[u] * scene.scale_y
-    dx, dy = scene.x[v] * scene.scale_x - ux, scene.y[v] * scene.scale_y - uy
-    ex = ux - walk.ax - t * (walk.bx - walk.ax) + share * dx
-    ey = uy - walk.ay - t * (walk.by - walk.ay) + share * dy
+    share = place_at(row, k, t)
+    ex = row[k, 6] - walk.ax - t * (walk.bx - walk.ax) + share * row[k, 8]
+    ey = row[k, 7] - walk.ay - t * (walk.by - walk.ay) + share * row[k, 9]
     return ex * ex + ey * ey
 
 
 @njit()
-def bound_distance(scene: Scene, walk: Walk, piece: Floats, side: int) -> float:
+def bound_distance(walk: Walk, row: Floats, k: int) -> float:
     """Bound of the squared distance over the whole piece; it is reached unless the point grazes."""
-    if piece[4] == 1.0 and piece[5] == 1.0:  # convex in t
+    if row[k, 4] == 1.0 and row[k, 5] == 1.0:  # convex in t
         return max(
-            squared_distance(scene, walk, piece, side, piece[0]),
-            squared_distance(scene, walk, piece, side, piece[1]),
+            squared_distance(walk, row, k, row[k, 0]), squared_distance(walk, row, k, row[k, 1])
         )
-    u, v = scene.tri[side], scene.tri[next_side(side)]
     most = 0.0
-    for t in (piece[0], piece[1]):
-        px, py = walk.ax + t * (walk.bx - walk.ax), walk.ay + t * (walk.by - walk.ay)
-        for w in (u, v):
-            dx, dy = scene.x[w] * scene.scale_x - px, scene.y[w] * scene.scale_y - py
-            most = max(most, dx * dx + dy * dy)
+    for i in range(4):
+        t, share = row[k, i % 2], float(i // 2)
+        ex = row[k, 6] - walk.ax - t * (walk.bx - walk.ax) + share * row[k, 8]
+        ey = row[k, 7] - walk.ay - t * (walk.by - walk.ay) + share * row[k, 9]
+        most = max(most, ex * ex + ey * ey)
     return most
+
+
+@njit()
+def is_idle(walk: Walk, row: Floats, work: Floats, count: int, k: int) -> bool:
+    """Whether a motion is nowhere nearer than the envelope's farthest piece beside it.
+
+    Not asked of grazes.
+    """
+    a, b = row[k, 0], row[k, 1]
+    if not vectors_of(walk, row, k, a, b, work, 0):
+        return False
+    x, y = work[0, 0], work[0, 1]
+    dx, dy = work[0, 2] - x, work[0, 3] - y
+    length_squared = dx * dx + dy * dy
+    if length_squared > 0.0:
+        share = min(max(-(x * dx + y * dy) / length_squared, 0.0), 1.0)
+        x, y = x + share * dx, y + share * dy
+    return x * x + y * y > farthest_between(row, count, a, b)
 
 
 # -- two of them -----------------------------------------------------------------------------------
 
 
 @njit()
-def is_same_motion(one: Floats, one_at: Ints, two: Floats, two_at: Ints) -> bool:
+def is_same_motion(row: Floats, at: Ints, i: int, other: Floats, other_at: Ints, j: int) -> bool:
     """Whether two pieces are parts of one motion."""
-    if one_at[1] != two_at[1]:
+    kind = at[i, KIND]
+    if kind != other_at[j, KIND] or at[i, GRAZED] != other_at[j, GRAZED]:
         return False
-    if one_at[1] == VERTEX:
-        return one_at[2] == two_at[2]
-    if one_at[0] != two_at[0] or one_at[2] != two_at[2]:
+    if kind == VERTEX:
+        return True
+    if at[i, SIDE] != other_at[j, SIDE]:
         return False
-    return one_at[1] == FOOT or one_at[1] == GRAZE or (one[2] == two[2] and one[3] == two[3])
+    return kind in (FOOT, GRAZE) or (row[i, 2] == other[j, 2] and row[i, 3] == other[j, 3])
 
 
 @njit()
-def always_nearer(scene: Scene, one_at: Ints, two_at: Ints) -> bool:
-    """Whether the first is nearer without computing: a foot, and any point of the same side.
+def always_nearer(at: Ints, i: int, j: int) -> bool:
+    """Whether i is nearer than j without computing: a foot, and any point of the same side.
 
     They touch where the one becomes the other, and rounding would cut that to pieces.
     """
-    if one_at[1] != FOOT:
+    if at[i, KIND] != FOOT:
         return False
-    if two_at[1] == VERTEX:
-        side, v = one_at[0], two_at[2]
-        return scene.tri[side] == v or scene.tri[next_side(side)] == v
-    return one_at[0] == two_at[0]
+    if at[j, KIND] == VERTEX:
+        return at[i, FIRST_END] == at[j, GRAZED] or at[i, LAST_END] == at[j, GRAZED]
+    return at[i, SIDE] == at[j, SIDE]
 
 
 @njit()
-def ties_between(
-    scene: Scene, walk: Walk, envelope: Envelope, one: Floats, side: int, two: Floats,
-    other_side: int, a: float, b: float,
-) -> int:  # fmt: skip
-    """Write the t from a to b at which two moving points tie in ``cuts``; their number."""
-    w, z, c = envelope.vectors[0], envelope.vectors[1], envelope.vectors[2]
-    is_plain = vectors_of(scene, walk, one, side, a, b, w)
-    other_is_plain = vectors_of(scene, walk, two, other_side, a, b, z)
+def ties_between(walk: Walk, row: Floats, work: Floats, i: int, j: int, a: float, b: float) -> int:
+    """Write the t from a to b at which two motions tie as row 3 of ``work``; their number."""
+    is_plain = vectors_of(walk, row, i, a, b, work, 0)
+    other_is_plain = vectors_of(walk, row, j, a, b, work, 1)
     degree = 2
     if is_plain and other_is_plain:
-        c[0] = w[0] * w[0] + w[1] * w[1] - z[0] * z[0] - z[1] * z[1]
-        c[1] = w[0] * w[2] + w[1] * w[3] - z[0] * z[2] - z[1] * z[3]
-        c[2] = w[2] * w[2] + w[3] * w[3] - z[2] * z[2] - z[3] * z[3]
+        for k in range(3):
+            p, q = 2 * (k // 2), 2 * ((k + 1) // 2)
+            work[2, k] = (
+                work[0, p] * work[0, q]
+                + work[0, p + 1] * work[0, q + 1]
+                - work[1, p] * work[1, q]
+                - work[1, p + 1] * work[1, q + 1]
+            )
     else:
         degree = DEGREE
         if is_plain:
-            as_quadratic(w)
+            as_quadratic(work, 0)
         if other_is_plain:
-            as_quadratic(z)
+            as_quadratic(work, 1)
         for k in range(DEGREE + 1):
-            c[k] = 0.0
-        add_product(w, z[6], z[7], 1.0, c)
-        add_product(z, w[6], w[7], -1.0, c)
-    return roots_inside(c, degree, a, b, envelope.halves, envelope.cuts, 0)
+            work[2, k] = 0.0
+        add_product(work, 0, work[1, 6], work[1, 7], 1.0)
+        add_product(work, 1, work[0, 6], work[0, 7], -1.0)
+    return roots_inside(work, 2, degree, a, b, 3, 0)
 
 
 @njit()
-def add_product(w: Floats, m_a: float, m_b: float, sign: float, c: Floats) -> None:
-    """Add the square of a quadratic vector times the square of a linear m to a polynomial."""
-    s0 = w[0] * w[0] + w[1] * w[1]
-    s1 = w[0] * w[2] + w[1] * w[3]
-    s2 = (w[0] * w[4] + w[1] * w[5] + 2.0 * (w[2] * w[2] + w[3] * w[3])) / 3.0
-    s3 = w[2] * w[4] + w[3] * w[5]
-    s4 = w[4] * w[4] + w[5] * w[5]
+def add_product(w: Floats, i: int, m_a: float, m_b: float, sign: float) -> None:
+    """Add the square of a quadratic vector times the square of a linear m to the polynomial."""
+    s0 = w[i, 0] * w[i, 0] + w[i, 1] * w[i, 1]
+    s1 = w[i, 0] * w[i, 2] + w[i, 1] * w[i, 3]
+    middle = w[i, 2] * w[i, 2] + w[i, 3] * w[i, 3]
+    s2 = (w[i, 0] * w[i, 4] + w[i, 1] * w[i, 5] + 2.0 * middle) / 3.0
+    s3 = w[i, 2] * w[i, 4] + w[i, 3] * w[i, 5]
+    s4 = w[i, 4] * w[i, 4] + w[i, 5] * w[i, 5]
     q0, q1, q2 = sign * m_a * m_a, sign * m_a * m_b, sign * m_b * m_b
-    c[0] += s0 * q0
-    c[1] += (4.0 * s1 * q0 + 2.0 * s0 * q1) / 6.0
-    c[2] += (6.0 * s2 * q0 + 8.0 * s1 * q1 + s0 * q2) / 15.0
-    c[3] += (4.0 * s3 * q0 + 12.0 * s2 * q1 + 4.0 * s1 * q2) / 20.0
-    c[4] += (s4 * q0 + 8.0 * s3 * q1 + 6.0 * s2 * q2) / 15.0
-    c[5] += (2.0 * s4 * q1 + 4.0 * s3 * q2) / 6.0
-    c[6] += s4 * q2
+    w[2, 0] += s0 * q0
+    w[2, 1] += (4.0 * s1 * q0 + 2.0 * s0 * q1) / 6.0
+    w[2, 2] += (6.0 * s2 * q0 + 8.0 * s1 * q1 + s0 * q2) / 15.0
+    w[2, 3] += (4.0 * s3 * q0 + 12.0 * s2 * q1 + 4.0 * s1 * q2) / 20.0
+    w[2, 4] += (s4 * q0 + 8.0 * s3 * q1 + 6.0 * s2 * q2) / 15.0
+    w[2, 5] += (2.0 * s4 * q1 + 4.0 * s3 * q2) / 6.0
+    w[2, 6] += s4 * q2
 
 
 # -- all of them -----------------------------------------------------------------------------------
 
 
 @njit()
-def farthest_between(piece: Floats, count: int, a: float, b: float) -> float:
+def farthest_between(row: Floats, count: int, a: float, b: float) -> float:
     """Bound of the envelope's squared distance from a to b, inf where it has no piece."""
     reached, most = a, 0.0
     for k in range(count):
-        if piece[k, 1] <= a:
+        if row[k, 1] <= a:
             continue
-        if piece[k, 0] > reached or reached >= b:
+        if row[k, 0] > reached or reached >= b:
             break
-        most, reached = max(most, piece[k, 6]), piece[k, 1]
+        most, reached = max(most, row[k, 10]), row[k, 1]
     return most if reached >= b else np.inf
 
 
 @njit()
 def put(
-    scene: Scene, walk: Walk, envelope: Envelope, count: int, a: float, b: float,
-    motion: Floats, motion_at: Ints,
-) -> int:  # fmt: skip
-    """Append a part of a motion to the next envelope, or lengthen its last piece; the new count."""
+    walk: Walk, row: Floats, at: Ints, base: int, count: int, a: float, b: float, k: int
+) -> int:
+    """Append a part of motion k to the next envelope, or lengthen its last piece; the new count."""
     if not a < b:
         return count
-    piece, at = envelope.piece, envelope.at
     last = count - 1
-    goes_on = 2 * count > piece.shape[0] and piece[last, 1] == a
-    if goes_on and is_same_motion(piece[last], at[last], motion, motion_at):
-        piece[last, 1] = b
-        piece[last, 6] = bound_distance(scene, walk, piece[last], at[last, 0])
+    if count > base and row[last, 1] == a and is_same_motion(row, at, last, row, at, k):
+        row[last, 1] = b
+        row[last, 10] = bound_distance(walk, row, last)
         return count
-    row = piece[count]
-    row[0], row[1] = a, b
-    for k in range(2, 6):
-        row[k] = motion[k]
-    for k in range(3):
-        at[count, k] = motion_at[k]
-    row[6] = bound_distance(scene, walk, row, motion_at[0])
+    row[count, 0], row[count, 1] = a, b
+    for column in range(2, 10):
+        row[count, column] = row[k, column]
+    for column in range(5):
+        at[count, column] = at[k, column]
+    row[count, 10] = bound_distance(walk, row, count)
     return count + 1
 
 
 @njit()
-def lower_by(
-    scene: Scene, walk: Walk, envelope: Envelope, count: int, motion: Floats, motion_at: Ints
-) -> int:
-    """Lower the envelope by a moving point from ``motion[0]`` to ``motion[1]``; the new count."""
-    piece, at = envelope.piece, envelope.at
-    base = piece.shape[0] // 2
-    low, high, total = motion[0], motion[1], base
+def lower_by(walk: Walk, row: Floats, at: Ints, work: Floats, base: int, count: int, i: int) -> int:
+    """Lower the envelope by motion i from where it begins to where it ends; the new count."""
+    low, high, total = row[i, 0], row[i, 1], base
     for k in range(count + 1):
         # 1. Pieces before and behind stay; what nothing covers is new.
-        a, b = (piece[k, 0], piece[k, 1]) if k < count else (high, high)
+        a, b = (row[k, 0], row[k, 1]) if k < count else (high, high)
         if b > low:
-            total = put(scene, walk, envelope, total, low, min(a, high), motion, motion_at)
+            total = put(walk, row, at, base, total, low, min(a, high), i)
         if k == count:
             break
-        total = put(scene, walk, envelope, total, a, min(b, max(a, low)), piece[k], at[k])
+        total = put(walk, row, at, base, total, a, min(b, max(a, low)), k)
         # 2. Where both are there, the nearer one stays, from tie to tie.
         start, stop = max(a, low), min(b, high)
         if start < stop:
-            total = put_nearer(
-                scene, walk, envelope, total, start, stop, piece[k], at[k], motion, motion_at
-            )
-        total = put(scene, walk, envelope, total, max(a, min(b, stop)), b, piece[k], at[k])
+            total = put_nearer(walk, row, at, work, base, total, start, stop, k, i)
+        total = put(walk, row, at, base, total, max(a, min(b, stop)), b, k)
         low = max(low, stop)
     for k in range(total - base):
-        for column in range(7):
-            piece[k, column] = piece[base + k, column]
-        for column in range(3):
+        for column in range(11):
+            row[k, column] = row[base + k, column]
+        for column in range(5):
             at[k, column] = at[base + k, column]
     return total - base
 
 
 @njit()
 def put_nearer(
-    scene: Scene, walk: Walk, envelope: Envelope, total: int, start: float, stop: float,
-    one: Floats, one_at: Ints, two: Floats, two_at: Ints,
-) -> int:  # fmt: skip
+    walk: Walk,
+    row: Floats,
+    at: Ints,
+    work: Floats,
+    base: int,
+    total: int,
+    start: float,
+    stop: float,
+    i: int,
+    j: int,
+) -> int:
     """Append the nearer of two motions, from tie to tie; the new count."""
-    cuts, ties = envelope.cuts, 0
-    is_first = is_same_motion(one, one_at, two, two_at) or always_nearer(scene, one_at, two_at)
-    is_second = not is_first and always_nearer(scene, two_at, one_at)
-    is_decided = is_first or is_second
+    ties = 0
+    is_first = is_same_motion(row, at, i, row, at, j) or always_nearer(at, i, j)
+    is_decided = is_first or always_nearer(at, j, i)
     if not is_decided:
-        ties = ties_between(scene, walk, envelope, one, one_at[0], two, two_at[0], start, stop)
+        ties = ties_between(walk, row, work, i, j, start, stop)
     a = start
-    for i in range(ties + 1):
-        b = cuts[i] if i < ties else stop
+    for k in range(ties + 1):
+        b = work[3, k] if k < ties else stop
         if not a < b:
             continue
         if not is_decided:
-            middle = (a + b) / 2.0
-            is_first = squared_distance(scene, walk, one, one_at[0], middle) <= squared_distance(
-                scene, walk, two, two_at[0], middle
-            )
-        motion, at = (one, one_at) if is_first else (two, two_at)
-        total = put(scene, walk, envelope, total, a, b, motion, at)
+            t = (a + b) / 2.0
+            is_first = squared_distance(walk, row, i, t) <= squared_distance(walk, row, j, t)
+        total = put(walk, row, at, base, total, a, b, i if is_first else j)
         a = b
     return total

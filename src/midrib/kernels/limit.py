@@ -19,19 +19,11 @@ import numpy as np
 
 from midrib.kernels.boxtree import GRAZE, VERTEX
 from midrib.kernels.chain import Chain, slack_of
-from midrib.kernels.envelope import (
-    Scene,
-    farthest_between,
-    is_same_motion,
-    place_at,
-    scene_of,
-    squared_distance,
-    walk_along,
-)
+from midrib.kernels.envelope import farthest_between, is_same_motion, place_at, squared_distance
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.outlook import look_along, new_outlook
+from midrib.kernels.outlook import Scene, look_along, new_outlook, scene_of, walk_along
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.tables import taller, taller_ints
 from midrib.kernels.triangulation import next_side
@@ -45,15 +37,15 @@ SLIVER = 2.0**-40  # of the main curve's length: pieces and gaps that are shorte
 SAME_OFF = 1.0 - 2.0**-20  # two knots are the farthest if rounding may have decided
 HALVINGS = 40  # of an arc
 A_BIT_FARTHER, MUCH_FARTHER = 1.0 + 2.0**-10, 2.0
-AT_MAIN, AT_SIDE, AT_KIND, AT_VERTEX = 0, 1, 2, 3
+AT_SIDE, AT_KIND, AT_MAIN = 0, 1, 3
 FROM, TO = 0, 1
 
 
 class Pieces(NamedTuple):
     """How Q moves, piece by piece."""
 
-    row: Floats  # (k, 6) t from and to, n at 0 and 1, m at 0 and 1, as in ``envelope``
-    at: Ints  # (k, 4) segment of the main curve; side, kind and vertex of Q
+    row: Floats  # (k, 6) t from and to, n at 0 and 1, m at 0 and 1, as in ``Motions``
+    at: Ints  # (k, 4) side, kind and vertex of Q, segment of the main curve
 
 
 class Knots(NamedTuple):
@@ -143,31 +135,31 @@ def trace_pieces(
                 windows, rows = 4 * windows, 4 * rows
                 outlook = new_outlook(windows, rows)
                 continue
-            farthest = np.sqrt(farthest_between(outlook.envelope.piece, count, start, stop))
+            farthest = np.sqrt(farthest_between(outlook.motions.row, count, start, stop))
             if farthest <= bound or bound == np.inf:
                 break
             bound = farthest if farthest < np.inf else bound * MUCH_FARTHER
             if bound > scene.extent:
                 bound = np.inf
         # 2. Pieces that go on past a cut are one.
-        found, found_at = outlook.envelope.piece, outlook.envelope.at
+        found, found_at = outlook.motions.row, outlook.motions.at
         while total + count > row.shape[0]:
             row, at = taller(row), taller_ints(at)
         for j in range(count):
             last = total - 1
             is_next = total > 0 and at[last, AT_MAIN] == k and row[last, TO] == found[j, FROM]
-            if is_next and is_same_motion(row[last], at[last, 1:], found[j], found_at[j]):
+            if is_next and is_same_motion(row, at, last, found, found_at, j):
                 row[last, TO] = found[j, TO]
                 continue
             for column in range(6):
                 row[total, column] = found[j, column]
             at[total, AT_MAIN] = k
             for column in range(3):
-                at[total, 1 + column] = found_at[j, column]
+                at[total, column] = found_at[j, column]
             total += 1
         last, reach = count - 1, np.inf
         if count > 0 and found[last, TO] == stop:
-            reach = np.sqrt(squared_distance(scene, walk, found[last], found_at[last, 0], stop))
+            reach = np.sqrt(squared_distance(walk, found, last, stop))
     # 3. Slivers are left out.
     kept, least = 0, SLIVER * main.arc[-1]
     for j in range(total):
@@ -210,7 +202,7 @@ def foot_of(scene: Scene, main: Chain, k: int, t: float) -> tuple[float, float, 
 def end_of(scene: Scene, pieces: Pieces, j: int, t: float) -> tuple[float, float, float]:
     """Q, and its share of its side."""
     e = pieces.at[j, AT_SIDE]
-    share = place_at(pieces.row[j], t)
+    share = place_at(pieces.row, j, t)
     x, y = point_between(scene, scene.tri[e], scene.tri[next_side(e)], share)
     return x, y, share
 

@@ -21,51 +21,99 @@ import numpy as np
 
 from midrib.kernels.bernstein import roots_inside
 from midrib.kernels.boxtree import FOOT, GRAZE, LIMIT, VERTEX
+from midrib.kernels.chain import TIE_OF_COORDINATE, Chain
 from midrib.kernels.envelope import (
-    Envelope,
-    Scene,
+    Motions,
     Walk,
     farthest_between,
     has_room,
+    is_idle,
     lower_by,
-    new_envelope,
+    new_motions,
 )
 from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.kernels.visibility import WINDOWS_PER_SIDE, squared_distance_to_side
 from midrib.types import Floats, Ints
 
-__all__ = ["Outlook", "look_along", "new_outlook"]
+__all__ = ["Outlook", "Scene", "look_along", "new_outlook", "scene_of", "walk_along"]
 
 FIRST, LAST, AT_FOOT, LOW, HIGH = 0, 1, 2, 3, 4
 NO_LIMIT = 2.0**500  # infinite shares could not be compared
-MOST_OFFERS = 64
+
+
+class Scene(NamedTuple):
+    """A mesh, and where the auxiliary curve lies on it: of ``Mesh``, ``Chain`` and ``Goal``."""
+
+    tri: Ints
+    twin: Ints
+    x: Floats
+    y: Floats
+    segment: Ints  # for each half-edge the curve's segment on it, or -1
+    place: Ints  # for each mesh vertex its place on the curve, or -1
+    vertex: Ints
+    arc: Floats
+    scale_x: float
+    scale_y: float
+    tie: float
+    extent: float  # no two points are farther apart
 
 
 class Outlook(NamedTuple):
     """Tables that are kept from one side to the next."""
 
-    envelope: Envelope
+    motions: Motions
     window: Ints  # (k, 3) side, right, left
     span: Floats  # (k, 2) from, to
-    motion: Floats  # (MOST_OFFERS, 7) rows as the envelope's
-    motion_at: Ints
-    share: Floats  # (6, 4) n and m at 0 and 1 of the ends, the foot and the limits; coefficients
-    cuts: Floats
+    share: Floats  # (5, 4) n and m at 0 and 1 of the ends, the foot and the limits
+
+
+@njit()
+def scene_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Scene:
+    """Prepare to look for a curve; O(n)."""
+    segment, place = np.full(mesh.tri.size, -1, np.intp), np.full(mesh.x.size, -1, np.intp)
+    for i in range(chain.vertex.size):
+        place[chain.vertex[i]] = i
+    for i in range(chain.side.size):
+        segment[chain.side[i]] = i
+    largest, low, high = 0.0, np.inf, -np.inf
+    for v in range(mesh.x.size):
+        x, y = mesh.x[v] * scale_x, mesh.y[v] * scale_y
+        largest = max(largest, abs(x), abs(y))
+        low, high = min(low, x, y), max(high, x, y)
+    return Scene(
+        mesh.tri,
+        mesh.twin,
+        mesh.x,
+        mesh.y,
+        segment,
+        place,
+        chain.vertex,
+        chain.arc,
+        scale_x,
+        scale_y,
+        TIE_OF_COORDINATE * largest,
+        2.0 * (high - low),
+    )
+
+
+@njit()
+def walk_along(scene: Scene, a: int, b: int) -> Walk:
+    """Walk from vertex a to vertex b."""
+    ax, ay = scene.x[a] * scene.scale_x, scene.y[a] * scene.scale_y
+    return Walk(a, b, ax, ay, scene.x[b] * scene.scale_x, scene.y[b] * scene.scale_y)
 
 
 @njit()
 def new_outlook(windows: int, pieces: int) -> Outlook:
     """Empty tables for so many windows that wait and so many pieces."""
     return Outlook(
-        new_envelope(pieces),
+        new_motions(pieces),
         np.empty((windows, 3), np.intp),
         np.empty((windows, 2)),
-        np.empty((MOST_OFFERS, 7)),
-        np.empty((MOST_OFFERS, 3), np.intp),
-        np.empty((6, 4)),
-        np.empty(MOST_OFFERS - 1),
+        np.empty((5, 4)),
     )
 
 
@@ -85,13 +133,17 @@ def look_along(
     ``limit`` holds the least arc length that counts, at 0 and at 1, and the greatest. What is
     farther than ``bound`` may be missing. Negative if the tables are too small.
     """
-    window, span, envelope = outlook.window, outlook.span, outlook.envelope
-    motion, motion_at = outlook.motion, outlook.motion_at
-    tri, twin, x, y = scene.tri, scene.twin, scene.x, scene.y
+    window, span, share = outlook.window, outlook.span, outlook.share
+    row, at, work, base = outlook.motions
+    tri, twin, x, y, segment, place = (
+        scene.tri, scene.twin, scene.x, scene.y, scene.segment, scene.place,
+    )  # fmt: skip
+    scale_x, scale_y = scene.scale_x, scene.scale_y
+    has_limits = limit[0] > -np.inf or limit[2] < np.inf
     middle, half = (start + stop) / 2.0, (stop - start) / 2.0
     px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
     reach = half * np.sqrt((walk.bx - walk.ax) ** 2 + (walk.by - walk.ay) ** 2)
-    px, py = px / scene.scale_x, py / scene.scale_y
+    px, py = px / scale_x, py / scale_y
     # 1. The side itself, for its ends, and the other two of its triangle.
     u, v, w = tri[side], tri[next_side(side)], tri[previous_side(side)]
     depth = add_window(window, span, 0, side, u, v, start, stop)
@@ -104,26 +156,38 @@ def look_along(
         low, high = span[depth, 0], span[depth, 1]
         # 2. What cannot be nearer than what is known is left out.
         u, v = tri[e], tri[next_side(e)]
-        near = squared_distance_to_side(
-            px, py, x[u], y[u], x[v], y[v], scene.scale_x, scene.scale_y
-        )
+        near = squared_distance_to_side(px, py, x[u], y[u], x[v], y[v], scale_x, scale_y)
         near = max(np.sqrt(near) - reach, 0.0)
-        if near > bound or near * near > farthest_between(envelope.piece, count, low, high):
+        if near > bound or near * near > farthest_between(row, count, low, high):
             continue
         # 3. An open side is parted, boundary makes its offers.
         if twin[e] >= 0:
             if depth + 6 > window.shape[0]:
                 return -1
-            depth = part(scene, walk, twin[e], right, left, low, high, window, span, depth)
+            w = tri[previous_side(twin[e])]
+            depth = part(
+                x, y, walk.a, walk.b, twin[e], w, right, left, low, high, window, span, depth
+            )
             continue
-        if scene.segment[e] >= 0:
-            offers = offer_side(scene, walk, e, right, left, low, high, limit, outlook)
+        first = 2 * base
+        if segment[e] >= 0:
+            row[first, 6], row[first, 7] = x[u] * scale_x, y[u] * scale_y
+            row[first, 8], row[first, 9] = (x[v] - x[u]) * scale_x, (y[v] - y[u]) * scale_y
+            if has_limits:
+                write_limits(scene, e, u, limit, share)
+            offers = offer_side(
+                x, y, walk, e, u, v, right, left, low, high, has_limits, row, at, work, share, first
+            )
+        elif place[u] >= 0 or place[v] >= 0:
+            offers = offer_ends(scene, walk, e, right, left, low, high, limit, row, at, first)
         else:
-            offers = offer_ends(scene, walk, e, right, left, low, high, limit, outlook)
+            offers = 0
         for i in range(offers):
-            if not has_room(envelope, count):
+            if is_idle(walk, row, work, count, first + i):
+                continue
+            if not has_room(base, count):
                 return -1
-            count = lower_by(scene, walk, envelope, count, motion[i], motion_at[i])
+            count = lower_by(walk, row, at, work, base, count, first + i)
     return count
 
 
@@ -137,12 +201,10 @@ def add_window(
     return depth + 1
 
 
-@njit()
-def turns(scene: Scene, walk: Walk, v: int, w: int) -> tuple[float, float]:
-    """How far w is to the left of the ray from P by v, seen from a and from b: linear between."""
-    x, y, a, b = scene.x, scene.y, walk.a, walk.b
-    at_a = orient(x[a], y[a], x[v], y[v], x[w], y[w])
-    return at_a, orient(x[b], y[b], x[v], y[v], x[w], y[w])
+@njit(inline=True)
+def turn(x: Floats, y: Floats, p: int, v: int, w: int) -> float:
+    """How far w is to the left of the ray from p by v; linear on the way from one p to another."""
+    return orient(x[p], y[p], x[v], y[v], x[w], y[w])
 
 
 @njit(inline=True)
@@ -160,16 +222,27 @@ def root_of(at_a: float, at_b: float) -> float:
 
 @njit()
 def part(
-    scene: Scene, walk: Walk, f: int, right: int, left: int, low: float, high: float,
-    window: Ints, span: Floats, depth: int,
-) -> int:  # fmt: skip
+    x: Floats,
+    y: Floats,
+    a: int,
+    b: int,
+    f: int,
+    w: int,
+    right: int,
+    left: int,
+    low: float,
+    high: float,
+    window: Ints,
+    span: Floats,
+    depth: int,
+) -> int:
     """Part a window among the two sides behind it, interval by interval; new number of windows.
 
-    ``f`` is the half-edge behind the window. Along the line a b a window has no width, but is open.
+    ``f`` is the half-edge behind the window, w the vertex across from it. Along the line a b a
+    window has no width, but is open.
     """
-    w = scene.tri[previous_side(f)]
-    right_a, right_b = turns(scene, walk, right, w)
-    left_a, left_b = turns(scene, walk, left, w)
+    right_a, right_b = turn(x, y, a, right, w), turn(x, y, b, right, w)
+    left_a, left_b = turn(x, y, a, left, w), turn(x, y, b, left, w)
     first, second = root_of(right_a, right_b), root_of(left_a, left_b)
     first, second = min(first, second), max(first, second)
     first, second = min(max(first, low), high), min(max(second, low), high)
@@ -194,46 +267,50 @@ def part(
 
 
 @njit()
-def is_cut(scene: Scene, walk: Walk, ray: int, end: int, t: float) -> float:
+def cut_off(x: Floats, y: Floats, a: int, b: int, ray: int, end: int, t: float) -> float:
     """How far the ray by a vertex passes an end of a side on the left; 0 where it is the end."""
     if ray == end:
         return 0.0
-    at_a, at_b = turns(scene, walk, ray, end)
-    return value_at(at_a, at_b, t)
+    return value_at(turn(x, y, a, ray, end), turn(x, y, b, ray, end), t)
 
 
 @njit()
-def write_graze(scene: Scene, walk: Walk, ray: int, u: int, v: int, share: Floats) -> None:
-    """Write where the ray from P by a vertex meets the side u v."""
-    u_a, u_b = turns(scene, walk, ray, u)
-    v_a, v_b = turns(scene, walk, ray, v)
-    m_a, m_b = u_a - v_a, u_b - v_b
-    if ray == walk.a:  # the ray runs along P's own side
+def write_graze(
+    x: Floats, y: Floats, a: int, b: int, ray: int, u: int, v: int, share: Floats, i: int
+) -> None:
+    """Write where the ray from P by a vertex meets the side u v, as row i."""
+    u_a, u_b = turn(x, y, a, ray, u), turn(x, y, b, ray, u)
+    m_a, m_b = u_a - turn(x, y, a, ray, v), u_b - turn(x, y, b, ray, v)
+    if ray == a:  # the ray runs along P's own side
         u_a, m_a = u_b, m_b
-    elif ray == walk.b:
+    elif ray == b:
         u_b, m_b = u_a, m_a
     unit = m_a if abs(m_a) > abs(m_b) else m_b
-    share[0], share[1], share[2], share[3] = u_a / unit, u_b / unit, m_a / unit, m_b / unit
+    share[i, 0], share[i, 1], share[i, 2], share[i, 3] = (
+        u_a / unit,
+        u_b / unit,
+        m_a / unit,
+        m_b / unit,
+    )
 
 
 @njit(inline=True)
-def write_constant(share: Floats, value: float) -> None:
-    """Write a share that does not change."""
-    share[0] = share[1] = value
-    share[2] = share[3] = 1.0
-
-
-@njit(inline=True)
-def share_at(share: Floats, t: float) -> float:
-    """Share at t."""
-    n, m = share[0] + t * (share[1] - share[0]), share[2] + t * (share[3] - share[2])
-    return n / m
+def write_linear(share: Floats, i: int, at_a: float, at_b: float) -> None:
+    """Write a share that is linear in t."""
+    share[i, 0], share[i, 1], share[i, 2], share[i, 3] = at_a, at_b, 1.0, 1.0
 
 
 @njit()
-def cut_by_order(outlook: Outlook, used: int, low: float, high: float) -> int:
-    """Put the t at which two of the shares in use are equal in ``cuts``, in order; their number."""
-    share, c, count = outlook.share, outlook.share[5], 0
+def share_at(share: Floats, i: int, t: float) -> float:
+    """Share at t."""
+    n = share[i, 0] + t * (share[i, 1] - share[i, 0])
+    return n / (share[i, 2] + t * (share[i, 3] - share[i, 2]))
+
+
+@njit()
+def cut_by_order(share: Floats, work: Floats, used: int, low: float, high: float) -> int:
+    """Write the t at which two of the shares in use are equal as row 3, in order; their number."""
+    count = 0
     for i in range(used):
         for j in range(i):
             n_a = share[i, 0] + low * (share[i, 1] - share[i, 0])
@@ -244,79 +321,92 @@ def cut_by_order(outlook: Outlook, used: int, low: float, high: float) -> int:
             k_b = share[j, 0] + high * (share[j, 1] - share[j, 0])
             l_a = share[j, 2] + low * (share[j, 3] - share[j, 2])
             l_b = share[j, 2] + high * (share[j, 3] - share[j, 2])
-            c[0], c[2] = n_a * l_a - k_a * m_a, n_b * l_b - k_b * m_b
-            c[1] = (n_a * l_b + n_b * l_a - k_a * m_b - k_b * m_a) / 2.0
-            halves = outlook.envelope.halves
-            count = roots_inside(c, 2, low, high, halves, outlook.cuts, count)
-    cuts = outlook.cuts
+            work[2, 0], work[2, 2] = n_a * l_a - k_a * m_a, n_b * l_b - k_b * m_b
+            work[2, 1] = (n_a * l_b + n_b * l_a - k_a * m_b - k_b * m_a) / 2.0
+            count = roots_inside(work, 2, 2, low, high, 3, count)
     for i in range(1, count):
-        j, cut = i, cuts[i]
-        while j > 0 and cuts[j - 1] > cut:
-            cuts[j] = cuts[j - 1]
+        j, cut = i, work[3, i]
+        while j > 0 and work[3, j - 1] > cut:
+            work[3, j] = work[3, j - 1]
             j -= 1
-        cuts[j] = cut
+        work[3, j] = cut
     return count
 
 
 @njit()
 def offer_side(
-    scene: Scene, walk: Walk, e: int, right: int, left: int, low: float, high: float,
-    limit: Floats, outlook: Outlook,
-) -> int:  # fmt: skip
-    """Write the nearest point of what a window shows of a side on the curve; number of offers."""
-    u, v, middle = scene.tri[e], scene.tri[next_side(e)], (low + high) / 2.0
-    share, offers = outlook.share, 0
+    x: Floats,
+    y: Floats,
+    walk: Walk,
+    e: int,
+    u: int,
+    v: int,
+    right: int,
+    left: int,
+    low: float,
+    high: float,
+    has_limits: bool,
+    row: Floats,
+    at: Ints,
+    work: Floats,
+    share: Floats,
+    i: int,
+) -> int:
+    """Write the nearest point of what a window shows of a side on the curve, from row i on.
+
+    Row i holds the side, ``share`` the limits if there are any. Return the number of offers.
+    """
+    middle = (low + high) / 2.0
     # 1. Ends, or where the view cuts them off.
     at_first, at_last, used = u, v, 3
-    write_constant(share[FIRST], 0.0)
-    write_constant(share[LAST], 1.0)
-    if is_cut(scene, walk, right, u, middle) < 0.0:
+    write_linear(share, FIRST, 0.0, 0.0)
+    write_linear(share, LAST, 1.0, 1.0)
+    if cut_off(x, y, walk.a, walk.b, right, u, middle) < 0.0:
         at_first = right
-        write_graze(scene, walk, right, u, v, share[FIRST])
-    if is_cut(scene, walk, left, v, middle) > 0.0:
+        write_graze(x, y, walk.a, walk.b, right, u, v, share, FIRST)
+    if cut_off(x, y, walk.a, walk.b, left, v, middle) > 0.0:
         at_last = left
-        write_graze(scene, walk, left, u, v, share[LAST])
-    # 2. The foot, and the limits where they lie on this side.
-    dx, dy = (scene.x[v] - scene.x[u]) * scene.scale_x, (scene.y[v] - scene.y[u]) * scene.scale_y
-    ux, uy = scene.x[u] * scene.scale_x, scene.y[u] * scene.scale_y
-    squared = dx * dx + dy * dy
-    write_constant(share[AT_FOOT], 0.0)
+        write_graze(x, y, walk.a, walk.b, left, u, v, share, LAST)
+    # 2. The foot.
+    ux, uy, dx, dy = row[i, 6], row[i, 7], row[i, 8], row[i, 9]
+    squared, foot_a, foot_b = dx * dx + dy * dy, 0.0, 0.0
     if squared > 0.0:
-        share[AT_FOOT, 0] = ((walk.ax - ux) * dx + (walk.ay - uy) * dy) / squared
-        share[AT_FOOT, 1] = ((walk.bx - ux) * dx + (walk.by - uy) * dy) / squared
-    if limit[0] > -np.inf or limit[2] < np.inf:
+        foot_a = ((walk.ax - ux) * dx + (walk.ay - uy) * dy) / squared
+        foot_b = ((walk.bx - ux) * dx + (walk.by - uy) * dy) / squared
+    write_linear(share, AT_FOOT, foot_a, foot_b)
+    if has_limits:
         used = 5
-        write_limits(scene, e, u, limit, share)
     # 3. Between two changes of their order the foot, or the end next to it, is the nearest.
-    cuts = cut_by_order(outlook, used, low, high)
-    start = low
+    cuts = cut_by_order(share, work, used, low, high)
+    start, offers = low, 0
     for k in range(cuts + 1):
-        stop = outlook.cuts[k] if k < cuts else high
+        stop = work[3, k] if k < cuts else high
         if not start < stop:
             continue
         t = (start + stop) / 2.0
         first, last = FIRST, LAST
-        if used == 5 and share_at(share[LOW], t) > share_at(share[FIRST], t):
+        if has_limits and share_at(share, LOW, t) > share_at(share, FIRST, t):
             first = LOW
-        if used == 5 and share_at(share[HIGH], t) < share_at(share[LAST], t):
+        if has_limits and share_at(share, HIGH, t) < share_at(share, LAST, t):
             last = HIGH
-        from_share, to_share = share_at(share[first], t), share_at(share[last], t)
-        motion, at = outlook.motion[offers], outlook.motion_at[offers]
-        motion[0], motion[1] = start, stop
+        from_share, to_share = share_at(share, first, t), share_at(share, last, t)
+        new = i + offers
+        row[new, 0], row[new, 1] = start, stop
         start = stop
-        if used == 5 and from_share > to_share:  # else the window has no width, but for rounding
+        if has_limits and from_share > to_share:  # else the window has no width, but for rounding
             continue
-        foot = share_at(share[AT_FOOT], t)
+        foot = share_at(share, AT_FOOT, t)
         nearest = first if foot <= from_share else last if foot >= to_share else AT_FOOT
-        at[0], at[1], at[2] = e, FOOT, -1
+        at[new, 0], at[new, 1], at[new, 2], at[new, 3], at[new, 4] = e, FOOT, -1, u, v
         if nearest == FIRST:
-            at[1], at[2] = VERTEX if at_first == u else GRAZE, at_first
+            at[new, 1], at[new, 2] = VERTEX if at_first == u else GRAZE, at_first
         elif nearest == LAST:
-            at[1], at[2] = VERTEX if at_last == v else GRAZE, at_last
+            at[new, 1], at[new, 2] = VERTEX if at_last == v else GRAZE, at_last
         elif nearest != AT_FOOT:
-            at[1] = LIMIT
-        for i in range(4):
-            motion[2 + i] = share[nearest, i]
+            at[new, 1] = LIMIT
+        for m in range(4):
+            row[new, 2 + m] = share[nearest, m]
+        row[new, 6], row[new, 7], row[new, 8], row[new, 9] = ux, uy, dx, dy
         offers += 1
     return offers
 
@@ -337,38 +427,50 @@ def write_limits(scene: Scene, e: int, u: int, limit: Floats, share: Floats) -> 
 
 @njit()
 def offer_ends(
-    scene: Scene, walk: Walk, e: int, right: int, left: int, low: float, high: float,
-    limit: Floats, outlook: Outlook,
-) -> int:  # fmt: skip
-    """Write the ends of a side that is not on the curve, if they are; the number of offers."""
-    offers = 0
+    scene: Scene,
+    walk: Walk,
+    e: int,
+    right: int,
+    left: int,
+    low: float,
+    high: float,
+    limit: Floats,
+    row: Floats,
+    at: Ints,
+    i: int,
+) -> int:
+    """Write the ends of a side that is not on the curve, if they are, from row i on; how many."""
+    offers, x, y = 0, scene.x, scene.y
     for end in range(2):
         v = scene.tri[e if end == 0 else next_side(e)]
-        i = scene.place[v]
-        if i < 0:
+        if scene.place[v] < 0:
             continue
-        cut = is_cut(scene, walk, right if end == 0 else left, v, (low + high) / 2.0)
+        ray = right if end == 0 else left
+        cut = cut_off(x, y, walk.a, walk.b, ray, v, (low + high) / 2.0)
         if cut < 0.0 if end == 0 else cut > 0.0:
             continue
         # The interval in which its arc length counts: the limits are linear.
-        arc, start, stop = scene.arc[i], low, high
-        if limit[0] > -np.inf or limit[2] < np.inf:
-            for bound in range(2):
-                at_a, at_b = limit[2 * bound] - arc, limit[2 * bound + 1] - arc
-                if bound == 1:
-                    at_a, at_b = -at_a, -at_b
-                if value_at(at_a, at_b, low) <= 0.0 and value_at(at_a, at_b, high) <= 0.0:
-                    continue
-                root = min(max(root_of(at_a, at_b), start), stop)
-                if value_at(at_a, at_b, low) > 0.0:
-                    start = root if value_at(at_a, at_b, high) <= 0.0 else stop
-                else:
-                    stop = root
-        motion, at = outlook.motion[offers], outlook.motion_at[offers]
-        motion[0], motion[1] = start, stop
-        motion[2] = motion[3] = float(end)
-        motion[4] = motion[5] = 1.0
-        at[0], at[1], at[2] = e, VERTEX, v
+        arc, start, stop = scene.arc[scene.place[v]], low, high
+        for bound in range(2):
+            if np.isinf(limit[2 * bound]):
+                continue
+            at_a, at_b = limit[2 * bound] - arc, limit[2 * bound + 1] - arc
+            if bound == 1:
+                at_a, at_b = -at_a, -at_b
+            is_late, is_early = value_at(at_a, at_b, low) > 0.0, value_at(at_a, at_b, high) > 0.0
+            root = min(max(root_of(at_a, at_b), start), stop)
+            if is_late:
+                start = stop if is_early else root
+            elif is_early:
+                stop = root
+        new = i + offers
+        row[new, 0], row[new, 1] = start, stop
+        row[new, 2] = row[new, 3] = float(end)
+        row[new, 8] = row[new, 9] = 0.0  # it stays where it is
+        row[new, 4] = row[new, 5] = 1.0
+        row[new, 6], row[new, 7] = x[v] * scene.scale_x, y[v] * scene.scale_y
+        at[new, 0], at[new, 1], at[new, 2] = e, VERTEX, v
+        at[new, 3] = at[new, 4] = v
         if start < stop:
             offers += 1
     return offers
