@@ -13,6 +13,7 @@ from shapely.affinity import scale
 
 from midrib import Curve, Strip, collapse, minimal_radii, split
 from midrib.errors import InvalidAreaError, ParameterError
+from midrib.kernels.boxtree import GRAZE
 from midrib.types import Floats
 from tests.oracle import Referee
 from tests.shapes import NAMED, rectangle
@@ -182,13 +183,16 @@ def test_a_wedge_has_one_straight_piece(beta: float) -> None:
 
 
 def test_a_graze_is_an_arc_of_a_hyperbola() -> None:
-    """Behind a tooth of the main bank Q moves along the far bank as the sight past it says."""
-    main = LineString([(0, 0), (10, 0), (10, 3), (11, 3), (11, 0), (20, 0)])
-    area = Polygon([*main.coords, (20, 10), (16, 10), (16, 1), (12, 1), (12, 10), (0, 10)])
-    strip = Strip(main, LineString([(12, 10), (12, 1), (16, 1), (16, 10), (20, 10)]), area)
+    """From under a shelf of the main bank Q moves as the sight past the shelf's edge says."""
+    main = LineString([(0, 10), (0, 0), (10, 0), (10, 1), (4, 1), (4, 4), (20, 4)])
+    strip = Strip(main, LineString([(0, 10), (20, 15)]), Polygon([*main.coords, (20, 15)]))
     check_against_samples(strip, 0.0)
     coarse, fine = limit(strip, 0.1), limit(strip, 0.001)
-    assert 2 in fine._radii.kind
+    grazes = (fine._radii.kind == GRAZE) & (fine.on_main[:, 1] == 0.0)
+    assert np.count_nonzero(grazes) > 4
+    x = fine.on_main[grazes][:, 0]
+    beyond = x + (40.0 + x) / x * (4.0 - x)  # past (4, 1) to the bank at 10 + x / 4
+    assert fine.on_auxiliary[grazes][:, 0] == pytest.approx(beyond)
     assert fine.radii.size > coarse.radii.size
 
 

@@ -121,16 +121,17 @@ def trace_pieces(
     """Pieces of the whole main curve; those that go on past a cut are one."""
     row, at, total = np.empty((64, 6)), np.empty((64, 4), np.intp), 0
     windows, rows = 256, 128
-    outlook, reach = new_outlook(windows, rows), np.inf
+    outlook, reach, limit = new_outlook(windows, rows), np.inf, np.empty(4)
     for i in range(stations.size - 1):
         k = segment[i]
         run = main.arc[k + 1] - main.arc[k]
         start, stop = (stations[i] - main.arc[k]) / run, (stations[i + 1] - main.arc[k]) / run
         walk = walk_along(scene, main.vertex[k], main.vertex[k + 1])
+        write_limits(limits[i], start, stop, limit)
         # 1. Q is hardly farther than a step ago. If it is, or is none, P looks again, farther.
         bound = (reach + (stations[i + 1] - stations[i])) * A_BIT_FARTHER
         while True:
-            count = look_along(scene, walk, main.side[k], start, stop, limits[i], bound, outlook)
+            count = look_along(scene, walk, main.side[k], start, stop, limit, bound, outlook)
             if count < 0:
                 windows, rows = 4 * windows, 4 * rows
                 outlook = new_outlook(windows, rows)
@@ -171,6 +172,14 @@ def trace_pieces(
                 at[kept, column] = at[j, column]
             kept += 1
     return Pieces(row[:kept], at[:kept])
+
+
+@njit()
+def write_limits(given: Floats, start: float, stop: float, limit: Floats) -> None:
+    """Write limits at the ends of a side that are those given at start and stop."""
+    for i in (0, 2):
+        slope = (given[i + 1] - given[i]) / (stop - start) if np.isfinite(given[i]) else 0.0
+        limit[i], limit[i + 1] = given[i] - start * slope, given[i + 1] + (1.0 - stop) * slope
 
 
 # -- points of the curve ---------------------------------------------------------------------------

@@ -458,11 +458,11 @@ def offer_ends(
             if bound == 1:
                 at_a, at_b = -at_a, -at_b
             is_late, is_early = value_at(at_a, at_b, low) > 0.0, value_at(at_a, at_b, high) > 0.0
-            root = min(max(root_of(at_a, at_b), start), stop)
-            if is_late:
-                start = stop if is_early else root
-            elif is_early:
-                stop = root
+            if is_late and is_early:
+                start = stop
+            elif is_late or is_early:
+                root = min(max(at_a / (at_a - at_b), start), stop)
+                start, stop = (root, stop) if is_late else (start, root)
         new = i + offers
         row[new, 0], row[new, 1] = start, stop
         row[new, 2] = row[new, 3] = float(end)
