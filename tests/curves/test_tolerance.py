@@ -16,7 +16,7 @@ from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels.boxtree import GRAZE
 from midrib.types import Floats
 from tests.oracle import Referee
-from tests.shapes import NAMED, rectangle
+from tests.shapes import NAMED, rectangle, wavy_ribbon
 from tests.strategies import combs, divided, polyominoes, simple_areas, tangled, with_holes
 
 ROUNDING = 1e-9  # of the size
@@ -97,6 +97,12 @@ def is_in_doubt(referee: Referee, p: Floats) -> bool:
 @settings(max_examples=120)
 def test_the_chain_is_within_the_tolerance_of_samples(strip: Strip, share: float) -> None:
     check_against_samples(strip, share * strip.layout.mean_width)
+
+
+@pytest.mark.parametrize("name", ["chevron", "hook", "river_with_island", "wavy"])
+def test_named_areas_are_within_the_tolerance_of_samples(name: str) -> None:
+    strip = split(wavy_ribbon(60, 0.4) if name == "wavy" else NAMED[name])
+    check_against_samples(strip, strip.layout.mean_width / 20.0)
 
 
 @given(strip=divided(with_holes()), share=st.sampled_from([0.0, 0.05]))
@@ -184,8 +190,8 @@ def test_a_wedge_has_one_straight_piece(beta: float) -> None:
 
 def test_a_graze_is_an_arc_of_a_hyperbola() -> None:
     """From under a shelf of the main bank Q moves as the sight past the shelf's edge says."""
-    main = LineString([(0, 10), (0, 0), (10, 0), (10, 1), (4, 1), (4, 4), (20, 4)])
-    strip = Strip(main, LineString([(0, 10), (20, 15)]), Polygon([*main.coords, (20, 15)]))
+    main = LineString([(-20, 5), (-20, 0), (10, 0), (10, 1), (4, 1), (4, 4), (20, 4)])
+    strip = Strip(main, LineString([(-20, 5), (20, 15)]), Polygon([*main.coords, (20, 15)]))
     check_against_samples(strip, 0.0)
     coarse, fine = limit(strip, 0.1), limit(strip, 0.001)
     grazes = (fine._radii.kind == GRAZE) & (fine.on_main[:, 1] == 0.0)

@@ -35,7 +35,7 @@ __all__ = ["Limit", "draw_limit"]
 
 SLIVER = 2.0**-40  # of the main curve's length: pieces and gaps that are shorter are rounding
 SAME_OFF = 1.0 - 2.0**-20  # two knots are the farthest if rounding may have decided
-HALVINGS = 40  # of an arc
+HALVINGS = 14  # of an arc: chords within 2^-28 of its extent
 A_BIT_FARTHER, MUCH_FARTHER = 1.0 + 2.0**-10, 2.0
 AT_SIDE, AT_KIND, AT_MAIN = 0, 1, 3
 FROM, TO = 0, 1

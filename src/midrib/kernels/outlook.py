@@ -203,7 +203,7 @@ def add_window(
 
 @njit(inline=True)
 def turn(x: Floats, y: Floats, p: int, v: int, w: int) -> float:
-    """How far w is to the left of the ray from p by v; linear on the way from one p to another."""
+    """How far w is to the left of the ray from p by v; linear in p."""
     return orient(x[p], y[p], x[v], y[v], x[w], y[w])
 
 
@@ -286,12 +286,8 @@ def write_graze(
     elif ray == b:
         u_b, m_b = u_a, m_a
     unit = m_a if abs(m_a) > abs(m_b) else m_b
-    share[i, 0], share[i, 1], share[i, 2], share[i, 3] = (
-        u_a / unit,
-        u_b / unit,
-        m_a / unit,
-        m_b / unit,
-    )
+    share[i, 0], share[i, 1] = u_a / unit, u_b / unit
+    share[i, 2], share[i, 3] = m_a / unit, m_b / unit
 
 
 @njit(inline=True)
