@@ -99,7 +99,9 @@ def test_the_chain_is_within_the_tolerance_of_samples(strip: Strip, share: float
     check_against_samples(strip, share * strip.layout.mean_width)
 
 
-@pytest.mark.parametrize("name", ["chevron", "hook", "river_with_island", "wavy"])
+@pytest.mark.parametrize(
+    "name", ["chevron", "comb", "hook", "kite", "river_with_island", "three_islands", "wavy"]
+)
 def test_named_areas_are_within_the_tolerance_of_samples(name: str) -> None:
     strip = split(wavy_ribbon(60, 0.4) if name == "wavy" else NAMED[name])
     check_against_samples(strip, strip.layout.mean_width / 20.0)
@@ -200,6 +202,14 @@ def test_a_graze_is_an_arc_of_a_hyperbola() -> None:
     beyond = x + (40.0 + x) / x * (4.0 - x)  # past (4, 1) to the bank at 10 + x / 4
     assert fine.on_auxiliary[grazes][:, 0] == pytest.approx(beyond)
     assert fine.radii.size > coarse.radii.size
+
+
+def test_behind_a_named_tooth_the_nearest_point_is_suddenly_far() -> None:
+    """A tooth of the main bank hides a tongue of the other one; beyond it only the bank is seen."""
+    main = LineString([(0, 0), (5.5, 0), (5.5, 3), (6, 3), (6, 0), (12, 0)])
+    other = LineString([(0, 10), (4, 10), (4, 2), (5, 2), (5, 10), (12, 10)])
+    strip = Strip(main, other)
+    check_against_samples(strip, 0.0)
 
 
 @pytest.mark.parametrize("power", [-200, -31, 1, 60, 200])
