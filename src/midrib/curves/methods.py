@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
-from midrib import interrupts
 from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN, Construction
 from midrib.errors import ParameterError
@@ -91,9 +90,8 @@ def minimal_radii_finder(**options: Any) -> "Finder":
             is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
             if is_done:
                 return Found(points, None, loops)
-        with interrupts.deferred():  # records go to kernels field by field, plain arrays at once
-            rings, height = normalised(coordinates, offsets)
-            _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
+        rings, height = normalised(coordinates, offsets)
+        _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
         return Found(path.points, path.height, path.loops)
 
     return find

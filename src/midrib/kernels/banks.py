@@ -151,7 +151,8 @@ def look_between(banks: Banks, first: Ints, last: Ints) -> None:
 @njit(borrows=True)
 def look_everywhere(banks: Banks) -> None:
     """Let every segment be nearest."""
-    banks.window[:, 0], banks.window[:, 1] = 0, MANY
+    for k in range(2):
+        banks.window[k, 0], banks.window[k, 1] = 0, MANY
 
 
 @njit(inline=True, borrows=True)

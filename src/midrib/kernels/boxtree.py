@@ -61,10 +61,10 @@ def box_tree(x: Floats, y: Floats) -> Floats:
     while leaves * LEAF < m:
         leaves *= 2
     boxes = np.empty((2 * leaves, 4))
-    boxes[:, 0] = boxes[:, 1] = np.inf
-    boxes[:, 2] = boxes[:, 3] = -np.inf
     for i in range(leaves):
         node = leaves + i
+        boxes[node, 0] = boxes[node, 1] = np.inf
+        boxes[node, 2] = boxes[node, 3] = -np.inf
         if i * LEAF >= m:
             continue
         for v in range(i * LEAF, min((i + 1) * LEAF, m) + 1):

@@ -43,7 +43,7 @@ def frechet_distances(
     return result
 
 
-@njit(borrows=True)
+@njit()
 def frechet_distance(p: Floats, q: Floats, at_least: float) -> float:
     """Shortest leash of two chains, by doubling a bound from below and halving what is left."""
     n, m = p.shape[0] - 1, q.shape[0] - 1

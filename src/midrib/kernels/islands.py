@@ -94,18 +94,20 @@ def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
     boxes = box_tree(ring_x, ring_y)
     is_long_in_x = bool(np.ptp(ring_x) >= np.ptp(ring_y))
     stack = np.empty(DEPTH, np.intp)
-    for e in range(mesh.tri.size):
-        if mesh.twin[e] >= 0 or owner[e] >= 0:
-            continue
-        f = e
-        while owner[f] < 0:
-            side[count], owner[f] = f, NOBODY
-            count += 1
-            f = next_boundary_side(mesh, f)
-        x, y = point_of_hole(mesh, side[start[loops] : count])
-        is_main[loops] = not is_around(x, y, ring_x, ring_y, boxes, is_long_in_x, stack)
-        loops += 1
-        start[loops] = count
+    for v in range(mesh.x.size):  # in order along the area, so that boxes over runs are small
+        e = mesh.door[v]
+        while e >= 0:
+            f = e
+            while owner[f] < 0:
+                side[count], owner[f] = f, NOBODY
+                count += 1
+                f = next_boundary_side(mesh, f)
+            if count > start[loops]:
+                x, y = point_of_hole(mesh, side[start[loops] : count])
+                is_main[loops] = not is_around(x, y, ring_x, ring_y, boxes, is_long_in_x, stack)
+                loops += 1
+                start[loops] = count
+            e = mesh.other_door[e]
     return Loops(side[:count], start[: loops + 1], is_main[:loops])
 
 
@@ -114,7 +116,8 @@ def ring_beside(mesh: Mesh, path: Floats, auxiliary: Chain) -> tuple[Floats, Flo
     """Return the closed ring along the path and back along the auxiliary curve."""
     n, m = path.shape[0], auxiliary.vertex.size
     x, y = np.empty(n + m + 1), np.empty(n + m + 1)
-    x[:n], y[:n] = path[:, 0], path[:, 1]
+    for i in range(n):
+        x[i], y[i] = path[i, 0], path[i, 1]
     for i in range(m):
         v = auxiliary.vertex[m - 1 - i]
         x[n + i], y[n + i] = mesh.x[v], mesh.y[v]

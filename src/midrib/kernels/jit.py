@@ -40,7 +40,20 @@ def cache_folder() -> Path:
 
 
 CACHE_FOLDER = str(cache_folder())
+WITHIN = {"cache": False, "nogil": False, "no_cpython_wrapper": True}
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
+
+
+def of_plain_types(template: Callable[..., Any]) -> Callable[..., Any]:
+    """Have a kernel compiled once, and not once more for every constant that it is called with."""
+    unliteral: Callable[[Any], Any] = nb.types.unliteral
+
+    def plain(args: tuple[Any, ...], kws: dict[str, Any]) -> Any:
+        return template(
+            tuple(map(unliteral, args)), {name: unliteral(kind) for name, kind in kws.items()}
+        )
+
+    return plain
 
 
 def njit(
@@ -74,6 +87,10 @@ def njit(
             dispatcher: Any = nb.njit(kernel, **options)
         finally:
             config.CACHE_DIR = usual
+        # To kernels an entry is one of them: they have no use for its door to Python.
+        inner = nb.njit(kernel, **(options | WITHIN)) if entry else dispatcher
+        dispatcher.get_call_template = of_plain_types(inner.get_call_template)
+        dispatcher.get_overload = inner.get_overload
         return dispatcher
 
     return compiled

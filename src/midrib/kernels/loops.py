@@ -114,12 +114,9 @@ def cut_loops(path: Floats) -> tuple[Floats, Ints, int]:
     and the number of pairs of segments whose ranges overlap.
     """
     n = path.shape[0]
-    points, row = np.empty((2 * n, 2)), np.empty(2 * n, np.intp)
     if n < 3:
-        points[:n] = path
-        for i in range(n):
-            row[i] = i
-        return points[:n], row[:n], 0
+        return path, np.arange(n), 0
+    points, row = np.empty((2 * n, 2)), np.empty(2 * n, np.intp)
     last = last_meetings(path)
     count, loops, i = 0, 0, 0
     while i < n:

@@ -13,7 +13,8 @@ from midrib.kernels.chain import TIE_OF_RADIUS, Chain, Goal, goal_of, slack_of
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.visibility import View, keep_ties, look, new_view, sees, twice, twice_ints
+from midrib.kernels.tables import with_rows
+from midrib.kernels.visibility import View, keep_ties, look, new_view, sees
 from midrib.kernels.windows import spot_at
 from midrib.types import Bools, Floats, Ints
 
@@ -101,7 +102,8 @@ def draw_radii(
         if j < 0:
             continue
         if total == at.shape[0]:
-            found, at = twice(found), twice_ints(at)
+            room = 2 * found.shape[0]
+            found, at = with_rows(found, room), with_rows(at, room)
         a, b = vertex[j], vertex[j + 1]
         qx = mesh.x[b] if share == 1.0 else mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
         qy = mesh.y[b] if share == 1.0 else mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
@@ -119,7 +121,8 @@ def draw_radii(
             view, count = look(mesh, goal, spot, low[i], high[i], np.inf, view)
         count = keep_ties(goal.tie, view, count)
         while total + count > at.shape[0]:
-            found, at = twice(found), twice_ints(at)
+            room = 2 * found.shape[0]
+            found, at = with_rows(found, room), with_rows(at, room)
         for k in range(count):
             found[total, 2], found[total, 3] = view.near[k, 0], view.near[k, 1]
             found[total, 4], found[total, 5] = view.near[k, 2], np.sqrt(view.near[k, 3])

@@ -26,6 +26,7 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import in_circle, orient
+from midrib.kernels.tables import with_places
 from midrib.types import Floats, Ints
 
 __all__ = ["triangulate_rings"]
@@ -555,8 +556,7 @@ def triangulate_rings(
     O(n log n) expected for rings of any shape.
     """
     n = x.size
-    all_x, all_y = np.empty(n + 3), np.empty(n + 3)
-    all_x[:n], all_y[:n] = x, y
+    all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
     middle_x, middle_y = (x.min() + x.max()) / 2.0, (y.min() + y.max()) / 2.0
     far = REACH * max(x.max() - x.min(), y.max() - y.min())
     all_x[n], all_y[n] = middle_x - 2.0 * far, middle_y - far

@@ -43,6 +43,7 @@ from midrib.kernels.paths import (
     triangle_towards,
     walk,
 )
+from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
 from midrib.types import Floats, Ints
@@ -367,7 +368,8 @@ def trace(
             # 2. The point itself, by the turns at walls if there are any.
             waiting -= 1
             if count + turns.size + 1 > source.size:
-                path, source = with_rows(path, source, 2 * (count + turns.size + 1))
+                room = 2 * (count + turns.size + 1)
+                path, source = with_rows(path, room), with_places(source, room)
             for v in turns:
                 if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
                     path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v
@@ -439,15 +441,6 @@ def is_near(
 ) -> bool:
     """Whether two points are nearer than what the trunk's points may be off."""
     return length((qx - px) * scale_x, (qy - py) * scale_y) <= slack
-
-
-@njit()
-def with_rows(path: Floats, source: Ints, rows: int) -> tuple[Floats, Ints]:
-    """Return copies of a path and its sources with room for so many rows."""
-    n = source.size
-    longer_path, longer_source = np.empty((rows, 2)), np.empty(rows, np.intp)
-    longer_path[:n], longer_source[:n] = path, source
-    return longer_path, longer_source
 
 
 @njit(borrows=True)

@@ -19,6 +19,7 @@ from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.predicates import orient
+from midrib.kernels.tables import with_rows
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.kernels.windows import Spot, add_window, first_windows, part_window, with_room
 from midrib.types import Floats, Ints
@@ -242,7 +243,8 @@ def look(
             radius = np.sqrt(d)
             bound = min(bound, (radius + slack_of(goal.tie, radius)) ** 2)
             if count == near.shape[0]:
-                near, near_at = twice(near), twice_ints(near_at)
+                room = 2 * near.shape[0]
+                near, near_at = with_rows(near, room), with_rows(near_at, room)
             vertex = v if share == 1.0 else u if share == 0.0 else -1
             near[count, 0], near[count, 1], near[count, 2], near[count, 3] = qx, qy, arc, d
             near_at[count, 1], near_at[count, 2] = vertex, kind
@@ -266,24 +268,6 @@ def look(
 def segment_at(goal: Goal, vertex: int) -> int:
     """Segment of the curve that leaves one of its vertices; of its end, the one that arrives."""
     return min(goal.place[vertex], goal.chain.side.size - 1)
-
-
-@njit()
-def twice(table: Floats) -> Floats:
-    """Copy of a table with room for as many rows again."""
-    n = table.shape[0]
-    larger = np.empty((2 * n, table.shape[1]))
-    larger[:n] = table
-    return larger
-
-
-@njit()
-def twice_ints(table: Ints) -> Ints:
-    """Copy of a table with room for as many rows again."""
-    n = table.shape[0]
-    larger = np.empty((2 * n, table.shape[1]), np.intp)
-    larger[:n] = table
-    return larger
 
 
 # -- ties ------------------------------------------------------------------------------------------

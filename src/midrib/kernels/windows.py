@@ -15,10 +15,9 @@ A table of windows has one row each: side, right, left.
 
 from typing import NamedTuple
 
-import numpy as np
-
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond, pull_inside
+from midrib.kernels.tables import with_rows
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Ints
 
@@ -51,11 +50,7 @@ def with_room(windows: Ints, count: int) -> Ints:
     """Return the table itself, or a copy twice as long where fewer than three rows are left."""
     if count + 3 <= windows.shape[0]:
         return windows
-    larger = np.empty((2 * windows.shape[0], 3), np.intp)
-    for i in range(count):
-        for k in range(3):
-            larger[i, k] = windows[i, k]
-    return larger
+    return with_rows(windows, 2 * windows.shape[0])
 
 
 @njit(inline=True, borrows=True)
