@@ -77,15 +77,18 @@ class Lean(NamedTuple):
 def bank_of(
     mesh: Mesh, chain: Chain, loops: Loops, is_main: bool, scale_x: float, scale_y: float
 ) -> Bank:
-    """Bank of one curve and of the islands that go with it; O(n)."""
+    """Bank of one curve, but for its bridges, and of what goes with it; O(n)."""
     n = chain.vertex.size
     size = n
     for k in range(loops.is_main.size):
         if loops.is_main[k] == is_main:
             size += loops.start[k + 1] - loops.start[k] + 1
+    size += 2 * int(np.count_nonzero(loops.wall_is_main == is_main))
     x, y, goes_on = np.empty(size), np.empty(size), np.ones(size, np.bool_)
     for i in range(n):
         x[i], y[i] = mesh.x[chain.vertex[i]] * scale_x, mesh.y[chain.vertex[i]] * scale_y
+    for i in range(n - 1):
+        goes_on[i] = chain.side[i] >= 0
     goes_on[n - 1] = False
     for k in range(loops.is_main.size):
         if loops.is_main[k] != is_main:
@@ -97,6 +100,12 @@ def bank_of(
         v = mesh.tri[next_side(loops.side[loops.start[k + 1] - 1])]
         x[n], y[n], goes_on[n] = mesh.x[v] * scale_x, mesh.y[v] * scale_y, False
         n += 1
+    for k in range(loops.wall_is_main.size):
+        if loops.wall_is_main[k] == is_main:
+            x[n], y[n] = loops.wall[k, 0] * scale_x, loops.wall[k, 1] * scale_y
+            x[n + 1], y[n + 1] = loops.wall[k, 2] * scale_x, loops.wall[k, 3] * scale_y
+            goes_on[n + 1] = False
+            n += 2
     return Bank(x, y, goes_on, box_tree(x, y))
 
 
