@@ -42,11 +42,11 @@ __all__ = ["Joint", "Problem", "collapse"]
 
 @dataclass(frozen=True)
 class Problem:
-    """What there is to say about an area: it was refused, repaired, or its line lost loops."""
+    """What there is to say about an area: refused, repaired, loops cut, bays left out."""
 
     index: Any  # position of the area, or its label in a GeoSeries
     part: int  # of a MultiPolygon, else 0
-    status: Literal["refused", "repaired", "loops cut", "joint", "no joint"]
+    status: Literal["refused", "repaired", "loops cut", "bays left out", "joint", "no joint"]
     reason: str
 
 
@@ -82,7 +82,8 @@ def collapse(
         One of ``midrib.methods()``.
     on_error : {"raise", "report"}, default "raise"
         ``"report"`` returns ``(lines, problems)``: an area that is refused gives None and a row of
-        ``problems`` that says why; repaired areas and lines that lost loops get a row too.
+        ``problems`` that says why; repaired areas, lines that lost loops and those for which
+        stations in bays were left out (how many) get a row too.
     along : LineString or array_like of them, optional
         Directional polylines, one for each area or None: the main curve is the part of the
         boundary beside it, see ``midrib.split``.
@@ -102,8 +103,8 @@ def collapse(
         it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
-        ``centring`` is ``"centred"`` and ``end_clearance`` None; with another centring stations
-        in bays are left out.
+        ``centring`` is ``"centred"`` and ``end_clearance`` None; with another centring ``skip`` is
+        ``"bays"``.
 
     Returns
     -------
@@ -194,7 +195,11 @@ class Log:
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
     def note(
-        self, index: int, part: int, status: Literal["repaired", "loops cut"], reason: str
+        self,
+        index: int,
+        part: int,
+        status: Literal["repaired", "loops cut", "bays left out"],
+        reason: str,
     ) -> None:
         """Record something about a line that is there; a strict log warns of repairs."""
         if not self.strict:
@@ -417,6 +422,9 @@ def lines_of(
 def find_between(
     find: Finder,
     joints: "list[tuple[End, End] | None] | None",
+        if found.bays:
+            count = f"{found.bays} of {found.bays + found.stations} stations"
+            log.note(part.area, part.number, "bays left out", count)
     i: int,
     coordinates: "Floats",
     offsets: "Ints",

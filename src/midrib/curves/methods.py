@@ -23,11 +23,13 @@ __all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of",
 
 
 class Found(NamedTuple):
-    """A line as arrays: points, Z of each or None, and the number of loops cut."""
+    """A line as arrays: points, Z of each or None; loops cut, stations left out as bays, others."""
 
     points: "Floats"
     height: "Floats | None"
     loops: int
+    bays: int = 0
+    stations: int = 0
 
 
 class Finder(Protocol):
@@ -91,8 +93,9 @@ def minimal_radii_finder(**options: Any) -> "Finder":
             if is_done:
                 return Found(points, None, loops)
         rings, height = normalised(coordinates, offsets)
-        _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
-        return Found(path.points, path.height, path.loops)
+        radii, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
+        bays, stations = radii.bays.size, radii.stations.size
+        return Found(path.points, path.height, path.loops, bays, stations)
 
     return find
 
