@@ -78,7 +78,10 @@ def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
     plain = {"ends": construction.ends, "end_clearance": construction.end_clearance}
-    is_usual = (options | plain).items() <= USUAL.items()  # arrays would not compare
+    usual = USUAL | {"channel": "shorter"}
+    if construction.holes != "auxiliary":
+        usual["holes"] = construction.holes  # those to be ignored are not there any more
+    is_usual = (options | plain).items() <= usual.items()  # arrays would not compare
 
     def find(
         coordinates: "Floats",
