@@ -142,11 +142,12 @@ def test_rivers_pass_islands_by_every_rule() -> None:
     areas = areas[shapely.is_valid(areas)]
     areas = areas[shapely.get_num_interior_rings(areas) > 0][::4]
     assert len(areas) > 0
-    for options in (
+    ways: list[dict[str, Any]] = [
         {"holes": "auxiliary"},
         {"holes": "auxiliary", "centring": "none"},
         {"channel": "wider"},
-    ):
+    ]
+    for options in ways:
         lines = collapse(areas, **options)
         assert outside(lines, areas) == []
         assert shapely.is_simple(lines).all()

@@ -167,12 +167,11 @@ def collapse(
             geographic = series.crs is not None and series.crs.is_geographic
     array = as_array(areas)
     log = Log(labels, strict=on_error == "raise")
-    with interrupts.deferred():
-        flat, along = array.ravel(), guides(along, array.size)
-        lines = collapse_all(
-            flat, find, along, bool(geographic), log, care,
-            connect=connect, fills=options.get("holes") == "ignored",
-        )  # fmt: skip
+    flat, along = array.ravel(), guides(along, array.size)
+    lines = collapse_all(
+        flat, find, along, bool(geographic), log, care,
+        connect=connect, fills=options.get("holes") == "ignored",
+    )  # fmt: skip
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -283,7 +282,8 @@ def collapse_all(
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
     if connect:
-        tended = connected_lines(parts, areas, find, geographic, log, care)
+        with interrupts.deferred():
+            tended = connected_lines(parts, areas, find, geographic, log, care)
     else:
         full = lines_of(parts, find, along, geographic, log)
         tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
@@ -305,9 +305,7 @@ def empty_like(area: Any) -> LineString | None:
 def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
     """Polygons of all areas, repaired where they are not valid."""
     is_area = np.array([isinstance(area, Polygon | MultiPolygon) for area in areas], dtype=bool)
-    only_areas = areas.copy()
-    only_areas[~is_area] = None
-    is_valid = shapely.is_valid(only_areas)
+    is_valid = shapely.is_valid(np.where(is_area, areas, None))
     for i, area in enumerate(areas):
         if area is None or (isinstance(area, BaseGeometry) and area.is_empty):
             continue

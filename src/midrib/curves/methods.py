@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from midrib import interrupts
 from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN, Construction
 from midrib.errors import ParameterError
@@ -95,8 +96,10 @@ def minimal_radii_finder(**options: Any) -> "Finder":
             is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
             if is_done:
                 return Found(points, None, loops)
-        rings, height = normalised(coordinates, offsets)
-        radii, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
+        with interrupts.deferred():  # records go to kernels field by field, plain arrays at once
+            rings, height = normalised(coordinates, offsets)
+            layout = divide(rings, height, scale, along=along, ends=joints)
+            radii, path = construction.of(layout)
         bays, stations = radii.bays.size, radii.stations.size
         return Found(path.points, path.height, path.loops, bays, stations)
 

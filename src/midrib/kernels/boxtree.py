@@ -23,7 +23,7 @@ LEAF = 4
 DEPTH = 128  # more than twice the height of any tree that fits into memory
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_share(
     px: float,
     py: float,
@@ -77,7 +77,7 @@ def box_tree(x: Floats, y: Floats) -> Floats:
     return boxes
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> float:
     """Squared distance from p to a node's box, inf for an empty one."""
     dx = max(boxes[node, 0] - px, px - boxes[node, 2], 0.0)
@@ -85,7 +85,7 @@ def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> f
     return dx * dx + dy * dy
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_on_chain(
     px: float,
     py: float,

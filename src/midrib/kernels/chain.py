@@ -67,7 +67,7 @@ def goal_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Goal:
     return Goal(segment, place, chain, x, y, box_tree(x, y), scale_x, scale_y, tie)
 
 
-@njit()
+@njit(borrows=True)
 def slack_of(tie: float, radius: float) -> float:
     """By how much radii of about this size may differ and still be a tie."""
     return max(tie, TIE_OF_RADIUS * radius)

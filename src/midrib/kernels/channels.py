@@ -34,7 +34,7 @@ from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.paths import Beads
 from midrib.kernels.triangulation import next_side, previous_side
-from midrib.kernels.trunk import APART, SHARE_OF_SLACK, ends_of, trace
+from midrib.kernels.trunk import APART, SHARE_OF_SLACK, Stops, ends_of, trace
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["trace_wider", "with_islands"]
@@ -91,7 +91,7 @@ def trace_wider(
         As from ``trace_trunk``. O(n log n).
     """
     beads = string_beads(points, at, end, end_origin, end_at)
-    first = end.shape[0] // 2
+    first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
     shores = shores_of(mesh, main, auxiliary, scale_x, scale_y)
     root = close_channels(mesh, main, auxiliary, shores, False, scale_x, scale_y).root
@@ -111,12 +111,16 @@ def trace_wider(
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
     is_main = root[shores.loop] == MAIN
     way = mixed_sides(mesh, main, is_main)
-    stops = stops_on_way(mesh, banks, beads, way, is_main, is_trimmed, scale_x, scale_y)
-    banks, stop, stop_at, before = land(
-        mesh, main, auxiliary, banks, islands, beads, stops, scale_x, scale_y
-    )
-    stops = stop, stop_at
-    ends = ends_of(banks, beads, end.shape[0] > 0, apart, scale_x, scale_y)
+    near = np.zeros((n, 2), np.intp)
+    ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
+    stops = stops_on_way(mesh, banks, beads, near, way, is_main, is_trimmed, scale_x, scale_y)
+    before = np.full((2, 2), np.nan)
+    if islands.wall_is_main.size > 0:
+        banks, point, stop_at, before = land(
+            mesh, main, auxiliary, banks, islands, beads, stops.point, stops.at, scale_x, scale_y
+        )
+        stops = Stops(point, stop_at, np.zeros((stop_at.size, 2), np.intp))  # no windows here
+        ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     path, source = trace(mesh, banks, beads, stops, ends, tolerance, apart, scale_x, scale_y)
     path, source = take_off(path, source, beads, before)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
@@ -326,18 +330,20 @@ def stops_on_way(
     mesh: Mesh,
     banks: Banks,
     beads: Beads,
+    near: Ints,
     way: Ints,
     is_main: Bools,
     is_trimmed: bool,
     scale_x: float,
     scale_y: float,
-) -> tuple[Floats, Ints]:
-    """Return a point of the trunk on each mixed side, between the first and the last bead.
-
-    As ``stops_on`` does: points, and for each its bead or -1 - (its triangle).
-    """
+) -> Stops:
+    """Return a point of the trunk on each mixed side, between the first and the last bead."""
     n, last = way.size, beads.side.size - 1
-    point, at = np.empty((n + 2, 2)), np.empty(n + 2, np.intp)
+    point, at, nearest = (
+        np.empty((n + 2, 2)),
+        np.empty(n + 2, np.intp),
+        np.empty((n + 2, 2), np.intp),
+    )
     for i in range(n):
         p, q = mesh.tri[way[i]], mesh.tri[next_side(way[i])]
         if not is_main[p]:
@@ -347,16 +353,15 @@ def stops_on_way(
             mesh.x[q] * scale_x, mesh.y[q] * scale_y, 0.5,
         )  # fmt: skip
         point[i + 1, 0], point[i + 1, 1], at[i + 1] = x / scale_x, y / scale_y, -1 - way[i] // 3
+        nearest[i + 1, 0], nearest[i + 1, 1] = banks.last[0], banks.last[1]
     low, high = 1, n + 1
     if is_trimmed and n > 0:
         low = nearest_step(point[1 : n + 1], beads.point[0], scale_x, scale_y) + 2
         high = nearest_step(point[1 : n + 1], beads.point[last], scale_x, scale_y) + 2
         high = max(low, high)
-    stop, stop_at = point[low - 1 : high + 1], at[low - 1 : high + 1]
-    m = stop_at.size - 1
-    stop[0], stop_at[0] = beads.point[0], 0
-    stop[m], stop_at[m] = beads.point[last], last
-    return stop, stop_at
+    for row, bead in ((low - 1, 0), (high, last)):
+        point[row], at[row], nearest[row] = beads.point[bead], bead, near[bead]
+    return Stops(point[low - 1 : high + 1], at[low - 1 : high + 1], nearest[low - 1 : high + 1])
 
 
 @njit()

@@ -41,14 +41,14 @@ LEVELLINGS = 8
 LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
 
 
-@njit()
+@njit(borrows=True)
 def middle_of(mesh: Mesh, e: int) -> tuple[float, float]:
     """Middle of a side."""
     a, b = mesh.tri[e], mesh.tri[next_side(e)]
     return (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
 
 
-@njit()
+@njit(borrows=True)
 def sweep(
     mesh: Mesh,
     order: Ints,
@@ -143,7 +143,7 @@ def far_pair(
     return pair
 
 
-@njit()
+@njit(borrows=True)
 def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float, int, float]:
     """Return the point of a closed ring at arc length s, its segment and the share of it.
 
@@ -165,7 +165,7 @@ def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float,
     return x[k] + share * (x[j] - x[k]), y[k] + share * (y[j] - y[k]), k, share
 
 
-@njit()
+@njit(borrows=True)
 def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
     """Return the last vertex of the straight run from vertex ``start`` in direction ``step``."""
     n = x.size
@@ -182,7 +182,7 @@ def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
         end = beyond
 
 
-@njit()
+@njit(borrows=True)
 def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
@@ -207,7 +207,7 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     return corner_p and corner_q and outward_p and outward_q
 
 
-@njit()
+@njit(borrows=True)
 def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tuple[int, int]:
     """Return the corners of the cap at a vertex, -1 if there is none.
 
@@ -239,7 +239,7 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
     return cap_p, cap_q
 
 
-@njit()
+@njit(borrows=True)
 def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     """Shift the arc length s until the points one arm before and after it are level.
 
@@ -262,7 +262,7 @@ def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     return s
 
 
-@njit()
+@njit(borrows=True)
 def shape_of_end(
     x: Floats, y: Floats, arc: Floats, vertex: int, width: float
 ) -> tuple[int, int, int, float]:
@@ -297,7 +297,7 @@ def shape_of_end(
     return POINT, k, k, share
 
 
-@njit()
+@njit(borrows=True)
 def mean_width(x: Floats, y: Floats, arc: Floats) -> float:
     """Width of the rectangle with a shell's area and perimeter, or of the square with its area."""
     doubled = 0.0

@@ -53,7 +53,7 @@ def no_loops() -> Loops:
     return Loops(none, np.zeros(1, np.intp), nobody, np.empty((0, 4)), nobody, none)
 
 
-@njit()
+@njit(borrows=True)
 def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
     """Whether there is boundary besides the two curves and the caps between them."""
     sides = 0
@@ -207,7 +207,7 @@ def ring_beside(mesh: Mesh, path: Floats, auxiliary: Chain) -> tuple[Floats, Flo
     return x, y
 
 
-@njit()
+@njit(borrows=True)
 def point_of_hole(mesh: Mesh, side: Ints) -> tuple[float, float]:
     """Return a point of the hole that these sides bound, just inside its leftmost vertex."""
     n, at = side.size, 0

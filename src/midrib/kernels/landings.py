@@ -48,7 +48,8 @@ def land(
     banks: Banks,
     loops: Loops,
     beads: Beads,
-    stops: tuple[Floats, Ints],
+    stop: Floats,
+    stop_at: Ints,
     scale_x: float,
     scale_y: float,
 ) -> Landed:
@@ -56,7 +57,6 @@ def land(
 
     Stops that are nearer to an end than its landing are left out.
     """
-    stop, stop_at = stops
     before, last = np.full((2, 2), np.nan), beads.side.size - 1
     is_kept = np.ones(loops.wall_is_main.size, np.bool_)
     for k in range(loops.wall_is_main.size - 1):

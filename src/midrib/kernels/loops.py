@@ -19,7 +19,7 @@ from midrib.types import Floats, Ints
 __all__ = ["cut_loops"]
 
 
-@njit()
+@njit(borrows=True)
 def meet(path: Floats, i: int, j: int) -> bool:
     """Whether segments i < j have a point in common; if they are neighbours, more than one."""
     ax, ay, bx, by = path[i, 0], path[i, 1], path[i + 1, 0], path[i + 1, 1]
@@ -77,7 +77,7 @@ def last_meetings(path: Floats) -> Ints:
     return last
 
 
-@njit()
+@njit(borrows=True)
 def meeting_point(path: Floats, i: int, j: int) -> tuple[float, float]:
     """Return a point that segments i and j have in common, up to rounding.
 

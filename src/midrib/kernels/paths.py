@@ -68,7 +68,7 @@ def new_search(mesh: Mesh, scale_x: float, scale_y: float) -> Search:
     return Search(scale_x, scale_y, entered, np.empty(m), np.empty(m), np.empty(m, np.intp))
 
 
-@njit()
+@njit(borrows=True)
 def walk(
     mesh: Mesh, t: int, goal: int, px: float, py: float, qx: float, qy: float
 ) -> tuple[int, int]:
@@ -229,7 +229,7 @@ def pull_tight(mesh: Mesh, sleeve: Ints, px: float, py: float, qx: float, qy: fl
     return turns[:count]
 
 
-@njit()
+@njit(borrows=True)
 def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
     """Return the triangle around vertex v through which the ray from v to q leaves; -1 if none."""
     x, y = mesh.x[v], mesh.y[v]
@@ -249,7 +249,7 @@ def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
     return -1
 
 
-@njit()
+@njit(borrows=True)
 def nearest_triangle(mesh: Mesh, qx: float, qy: float) -> tuple[int, float, float]:
     """Return the triangle that q, outside by rounding, has to move least into.
 

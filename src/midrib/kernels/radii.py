@@ -140,7 +140,7 @@ def draw_radii(
     return Drawn(found, at, is_lopsided)
 
 
-@njit()
+@njit(borrows=True)
 def find_lopsided(
     mesh: Mesh,
     goal: Goal,

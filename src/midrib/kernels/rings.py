@@ -32,7 +32,7 @@ class Rings(NamedTuple):
     n_shell: int
 
 
-@njit()
+@njit(borrows=True)
 def signed_area(x: Floats, y: Floats, rows: Ints) -> float:
     """Area of a ring, positive if it turns left; taken about its first vertex."""
     total = 0.0

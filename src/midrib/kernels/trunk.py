@@ -24,6 +24,8 @@ from midrib.kernels.banks import (
     lean_at,
     level_between,
     level_from,
+    look_between,
+    look_everywhere,
     way_to_level,
 )
 from midrib.kernels.chain import Chain
@@ -46,7 +48,7 @@ from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
 from midrib.types import Floats, Ints
 
-__all__ = ["APART", "SHARE_OF_SLACK", "ends_of", "trace", "trace_trunk"]
+__all__ = ["APART", "SHARE_OF_SLACK", "Stops", "ends_of", "trace", "trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -71,6 +73,14 @@ class Ends(NamedTuple):
     y1: float
     off_1: float
     reach_1: float
+
+
+class Stops(NamedTuple):
+    """Points that the trunk goes by, in order."""
+
+    point: Floats  # (n, 2)
+    at: Ints  # the bead that each is, or -1 - (the triangle it is in)
+    nearest: Ints  # (n, 2) segments of the main and of the auxiliary bank
 
 
 @njit(entry=True)
@@ -120,6 +130,7 @@ def trace_trunk(
                 source[k] = kept[source[k]] if source[k] < kept.size else n
         loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
+    near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
     for i in range(points.shape[0]):
         x, y = level_between(
             banks,
@@ -130,14 +141,16 @@ def trace_trunk(
             0.5,
         )
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
-    stops = stops_on(mesh, banks, beads, path, source, scale_x, scale_y)
+        near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
+    ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
+    stops = stops_on(mesh, banks, beads, near, path, source, scale_x, scale_y)
     before = np.full((2, 2), np.nan)
     if loops.wall_is_main.size > 0:
-        banks, stop, stop_at, before = land(
-            mesh, main, auxiliary, banks, loops, beads, stops, scale_x, scale_y
+        banks, point, stop_at, before = land(
+            mesh, main, auxiliary, banks, loops, beads, stops.point, stops.at, scale_x, scale_y
         )
-        stops = stop, stop_at
-    ends = ends_of(banks, beads, end.shape[0] > 0, apart, scale_x, scale_y)
+        stops = Stops(point, stop_at, np.zeros((stop_at.size, 2), np.intp))  # no windows here
+        ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     path, source = trace(mesh, banks, beads, stops, ends, tolerance, apart, scale_x, scale_y)
     path, source = take_off(path, source, beads, before)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
@@ -181,24 +194,27 @@ def stops_on(
     mesh: Mesh,
     banks: Banks,
     beads: Beads,
+    near: Ints,
     path: Floats,
     source: Ints,
     scale_x: float,
     scale_y: float,
-) -> tuple[Floats, Ints]:
-    """Return the points that the trunk goes by, and for each its bead or -1 - (its triangle).
+) -> Stops:
+    """Return the points that the trunk goes by.
 
     Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
     passes islands on the side where the path does.
     """
     n, last = source.size, beads.side.size - 1
     point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
+    nearest = np.empty((n + 1, 2), np.intp)
     for k in range(n):
         if source[k] > last:
             continue
         if source[k] >= 0:
             point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
             at[count] = source[k]
+            nearest[count, 0], nearest[count, 1] = near[source[k], 0], near[source[k], 1]
             count += 1
         elif 0 < k < n - 1:
             t, x, y = opposite_turn(
@@ -207,15 +223,17 @@ def stops_on(
             )  # fmt: skip
             if t >= 0:
                 point[count, 0], point[count, 1], at[count] = x, y, -1 - t
+                nearest[count, 0], nearest[count, 1] = banks.last[0], banks.last[1]
                 count += 1
     if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
         point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
         at[count] = last
+        nearest[count, 0], nearest[count, 1] = near[last, 0], near[last, 1]
         count += 1
-    return point[:count], at[:count]
+    return Stops(point[:count], at[:count], nearest[:count])
 
 
-@njit()
+@njit(borrows=True)
 def opposite_turn(
     mesh: Mesh,
     banks: Banks,
@@ -270,7 +288,7 @@ def trace(
     mesh: Mesh,
     banks: Banks,
     beads: Beads,
-    stops: tuple[Floats, Ints],
+    stops: Stops,
     ends: Ends,
     tolerance: float,
     apart: float,
@@ -281,16 +299,16 @@ def trace(
 
     One past the beads for a point between.
     """
-    stop, stop_at = stops
     n = beads.side.size
     search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
     # Points still to be reached, the next one last: x, y; triangle, source, depth.
     goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
-    count, t = 0, -1
+    goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
+    count, t, none = 0, -1, np.empty(0, np.intp)
     px, py = 0.0, 0.0
-    for k in range(stop_at.size):
-        qx, qy, i = stop[k, 0], stop[k, 1], stop_at[k]
+    for k in range(stops.at.size):
+        qx, qy, i = stops.point[k, 0], stops.point[k, 1], stops.at[k]
         if i < 0:
             end, i = -1 - i, n
         else:
@@ -305,18 +323,20 @@ def trace(
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
+        goal_near[0, 0], goal_near[0, 1] = stops.nearest[k, 0], stops.nearest[k, 1]
         waiting = 1
         while waiting > 0:
             # 1. A point between, if the way to the next one is not good enough.
             top = waiting - 1
             qx, qy, depth = goal[top, 0], goal[top, 1], goal_at[top, 2]
-            turns = np.empty(0, np.intp)
+            turns = none
             if t >= 0:
                 end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
                 between = -1
                 mx, my = 0.0, 0.0
                 if obstacle == -1:
                     if depth < DEPTH:
+                        look_between(banks, p_near, goal_near[top])
                         at, mx, my = worst_probe(
                             banks,
                             ends,
@@ -335,6 +355,7 @@ def trace(
                     end = goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
                     turns = pull_tight(mesh, sleeve, px, py, qx, qy)
+                    look_everywhere(banks)
                     if depth < DEPTH and turns.size > 0:
                         between, mx, my = opposite_middle_turn(
                             mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
@@ -347,6 +368,7 @@ def trace(
                     goal[waiting, 0], goal[waiting, 1] = mx, my
                     goal_at[waiting, 0], goal_at[waiting, 1] = between, n
                     goal_at[waiting, 2] = depth + 1
+                    goal_near[waiting, 0], goal_near[waiting, 1] = banks.last[0], banks.last[1]
                     waiting += 1
                     continue
             else:
@@ -363,14 +385,21 @@ def trace(
                 path[count, 0], path[count, 1], source[count] = qx, qy, goal_at[top, 1]
                 count += 1
             t, px, py = end, qx, qy
+            p_near[0], p_near[1] = goal_near[top, 0], goal_near[top, 1]
     return path[:count], source[:count]
 
 
-@njit()
+@njit(borrows=True)
 def ends_of(
-    banks: Banks, beads: Beads, are_given: bool, apart: float, scale_x: float, scale_y: float
+    banks: Banks,
+    beads: Beads,
+    near: Ints,
+    are_given: bool,
+    apart: float,
+    scale_x: float,
+    scale_y: float,
 ) -> Ends:
-    """Return the ends of a path, the first and the last bead if they are."""
+    """Return the ends of a path, the first and the last bead if they are; note what is near."""
     n = beads.side.size
     x0, y0, x1, y1 = 0.0, 0.0, 0.0, 0.0
     off_0, off_1, reach_0, reach_1 = 0.0, 0.0, 0.0, 0.0
@@ -378,11 +407,13 @@ def ends_of(
         x0, y0 = beads.point[0, 0] * scale_x, beads.point[0, 1] * scale_y
         x1, y1 = beads.point[n - 1, 0] * scale_x, beads.point[n - 1, 1] * scale_y
         off_0, reach_0 = off_and_reach(banks, apart, x0, y0)
+        near[0, 0], near[0, 1] = banks.last[0], banks.last[1]
         off_1, reach_1 = off_and_reach(banks, apart, x1, y1)
+        near[n - 1, 0], near[n - 1, 1] = banks.last[0], banks.last[1]
     return Ends(are_given, x0, y0, off_0, reach_0, x1, y1, off_1, reach_1)
 
 
-@njit()
+@njit(borrows=True)
 def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float, float]:
     """How far an end is off the trunk, and how far from it the line may still be on its way."""
     lean = lean_at(banks, x, y)
@@ -392,7 +423,7 @@ def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float
     return off, max(min(GLIDE * off, lean.to_main + lean.to_auxiliary), apart)
 
 
-@njit()
+@njit(borrows=True)
 def is_before_end(ends: Ends, x: float, y: float) -> bool:
     """Whether a point is so near to an end that the line has not come to the trunk yet."""
     return ends.are_given and (
@@ -401,7 +432,7 @@ def is_before_end(ends: Ends, x: float, y: float) -> bool:
     )
 
 
-@njit()
+@njit(borrows=True)
 def allowance(ends: Ends, x: float, y: float) -> float:
     """How far off the trunk a point may be because an end is: less and less away from it."""
     if not ends.are_given:
@@ -411,7 +442,7 @@ def allowance(ends: Ends, x: float, y: float) -> float:
     return ends.off_0 * max(first, 0.0) + ends.off_1 * max(last, 0.0)
 
 
-@njit()
+@njit(borrows=True)
 def is_near(
     px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
 ) -> bool:
@@ -428,7 +459,7 @@ def with_rows(path: Floats, source: Ints, rows: int) -> tuple[Floats, Ints]:
     return longer_path, longer_source
 
 
-@njit()
+@njit(borrows=True)
 def worst_probe(
     banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
 ) -> tuple[float, float, float]:
@@ -462,7 +493,7 @@ def worst_probe(
     return at, wx, wy
 
 
-@njit()
+@njit(borrows=True)
 def walk_by(
     mesh: Mesh, t: int, px: float, py: float, x: float, y: float, qx: float, qy: float
 ) -> int:
@@ -476,7 +507,7 @@ def walk_by(
     return end if obstacle == -1 else -1
 
 
-@njit()
+@njit(borrows=True)
 def opposite_middle_turn(
     mesh: Mesh,
     banks: Banks,

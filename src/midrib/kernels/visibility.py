@@ -58,7 +58,7 @@ def new_view() -> View:
     )
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def sees(mesh: Mesh, spot: Spot, side: int, qx: float, qy: float) -> bool:
     """Whether the straight way from P to Q, a point on a boundary side, is free.
 
@@ -77,7 +77,7 @@ def sees(mesh: Mesh, spot: Spot, side: int, qx: float, qy: float) -> bool:
 # -- looking around --------------------------------------------------------------------------------
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def squared_distance_to_side(
     px: float, py: float, ax: float, ay: float, bx: float, by: float, scale_x: float, scale_y: float
 ) -> float:
@@ -91,7 +91,7 @@ def squared_distance_to_side(
     return ex * ex + ey * ey
 
 
-@njit()
+@njit(borrows=True)
 def ray_meets_side(
     px: float, py: float, rx: float, ry: float, ax: float, ay: float, bx: float, by: float
 ) -> float:
@@ -101,7 +101,7 @@ def ray_meets_side(
     return at_a / (at_a - at_b) if at_a != at_b else np.nan
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_on_side(
     mesh: Mesh,
     goal: Goal,
@@ -147,7 +147,7 @@ def nearest_on_side(
     )
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def offer_of_segment(
     mesh: Mesh,
     goal: Goal,
@@ -174,7 +174,7 @@ def offer_of_segment(
     return share, at, kind
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def offer_of_ends(
     mesh: Mesh,
     goal: Goal,
@@ -270,7 +270,7 @@ def look(
     return View(near, near_at, stack, windows, view.nodes), count
 
 
-@njit()
+@njit(borrows=True)
 def segment_at(goal: Goal, vertex: int) -> int:
     """Segment of the curve that leaves one of its vertices; of its end, the one that arrives.
 
@@ -301,7 +301,7 @@ def twice_ints(table: Ints) -> Ints:
 # -- ties ------------------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def keep_ties(tie: float, view: View, count: int) -> int:
     """Sort the points found by arc length; drop those that are not nearest, or double.
 

@@ -34,7 +34,7 @@ class Spot(NamedTuple):
     vertex: int
 
 
-@njit()
+@njit(borrows=True)
 def spot_at(mesh: Mesh, x: float, y: float, side: int, vertex: int) -> Spot:
     """Return a point of the boundary to look from.
 
@@ -58,7 +58,7 @@ def with_room(windows: Ints, count: int) -> Ints:
     return larger
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def add_window(windows: Ints, count: int, side: int, right: int, left: int) -> int:
     """Append a window; return the new count."""
     windows[count, 0], windows[count, 1], windows[count, 2] = side, right, left
@@ -103,7 +103,7 @@ def first_windows(mesh: Mesh, spot: Spot, windows: Ints) -> tuple[Ints, int]:
     return windows, count
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def part_window(
     e: int, w: int, right: int, left: int, by_right: float, by_left: float, windows: Ints
 ) -> int:
