@@ -18,7 +18,7 @@ from tables import ROOT, machine_text, markdown, versions
 
 COMMAND = "python benchmarks/bays.py"
 PAGE = ROOT / "docs" / "bays.md"
-SAMPLE = 40  # areas of each layer, evenly spread over it
+SAMPLE = 30  # areas of each layer, evenly spread over it
 LAYERS = (
     "road parts, verges, water, banks",
     "slopes, Poland",

@@ -134,13 +134,13 @@ def test_a_ring_closed_by_a_touch_has_a_line_round_it() -> None:
     assert line.length > 20.0
     ends = shapely.points(line.coords[:: len(line.coords) - 1])
     touch = area.exterior.intersection(area.interiors[1])
-    assert shapely.distance(ends, touch).max() < 0.5
+    assert shapely.distance(ends, touch).max() < 2.5  # half the mean width
 
 
 def test_rivers_pass_islands_by_every_rule() -> None:
-    areas = areas_of("gshhg_rivers_lakes_americas.parquet", None).to_numpy()
+    areas = areas_of("geomaps_rivers_americas_poland.parquet", None).to_numpy()
     areas = areas[shapely.is_valid(areas)]
-    areas = areas[shapely.get_num_interior_rings(areas) > 0][::4]
+    areas = areas[shapely.get_num_interior_rings(areas) > 1][::4]
     assert len(areas) > 0
     ways: list[dict[str, Any]] = [
         {"holes": "auxiliary"},

@@ -39,7 +39,7 @@ def ellipse(x: float, y: float, a: float, b: float, degrees: float) -> Polygon:
 
 def court() -> Polygon:
     """Make a court with a building in it."""
-    return Polygon(box(0.0, 0.0, 40.0, 26.0).exterior, [box(11.0, 8.0, 27.0, 19.0).exterior])
+    return Polygon(box(0.0, 0.0, 40.0, 26.0).exterior, [box(9.0, 7.0, 33.0, 19.0).exterior])
 
 
 def open_ring() -> Polygon:
@@ -49,14 +49,15 @@ def open_ring() -> Polygon:
     return Polygon(outer.exterior, [inner.exterior])
 
 
+PAPER: dict[str, Any] = {"centring": "none", "count": 60}
 PICTURES: dict[str, tuple[Polygon, dict[str, Any]]] = {
     "holes-blocked": (river(), {}),
     "holes-auxiliary": (river(), {"holes": "auxiliary"}),
     "holes-ignored": (river(), {"holes": "ignored"}),
     "holes-wider": (river(), {"channel": "wider"}),
-    "holes-paper-blocked": (river(), {"centring": "none", "count": 60}),
-    "holes-paper-auxiliary": (river(), {"centring": "none", "count": 60, "holes": "auxiliary"}),
-    "holes-paper-ignored": (river(), {"centring": "none", "count": 60, "holes": "ignored"}),
+    "holes-paper-blocked": (river(), PAPER),
+    "holes-paper-auxiliary": (river(), PAPER | {"holes": "auxiliary"}),
+    "holes-paper-ignored": (river(), PAPER | {"holes": "ignored"}),
     "holes-court": (court(), {}),
     "holes-touching": (open_ring(), {}),
 }

@@ -150,7 +150,9 @@ def split(
     Returns
     -------
     Strip
-        With the main curve running from start to end.
+        With the main curve running from start to end. Where the proposed ends are on either side
+        of a hole that touches the outer boundary in a vertex, the area is a ring closed by the
+        touch: the hole's boundary then belongs to the curves too.
 
     Raises
     ------

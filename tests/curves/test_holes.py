@@ -128,10 +128,19 @@ def test_nearest_points_are_on_the_auxiliary_curve_or_on_holes(area: Polygon) ->
 
 def test_arc_lengths_on_auxiliary_holes_never_descend_along_a_river() -> None:
     """The auxiliary curve goes round each island on its way, so that radii stay in order."""
-    area = river(box(20, 11, 30, 15), box(40, 5, 50, 16), box(70, 2, 90, 12))
-    curve = minimal_radii(strip_of(area), spacing=1.0, ends=None, holes="auxiliary")
+    area = river(box(20, 11, 30, 15), box(40, 5, 50, 16), box(70, 2, 90, 12)).segmentize(0.5)
+    curve = minimal_radii(split(area), spacing=1.0, ends=None, holes="auxiliary")
     assert curve.loops_cut == 0
-    assert (np.diff(curve.points[:, 0]) > 0).all()
+    assert (np.diff(curve._radii.arc) >= 0).all()
+    assert curve._radii.arc[-1] > LENGTH + 70.0  # and round the first two islands
+
+
+def test_bridges_to_auxiliary_holes_are_no_banks() -> None:
+    """From a far corner one leads across half the river."""
+    area = river(box(40, 7, 60, 11))
+    line = minimal_radii(strip_of(area), ends="caps", holes="auxiliary", centring="centred").line
+    assert height_at(line, 15.0) == pytest.approx(10.0, abs=0.1)
+    assert height_at(line, 85.0) == pytest.approx(10.0, abs=0.1)
 
 
 # -- wider channels --------------------------------------------------------------------------------
@@ -247,6 +256,14 @@ def test_the_line_of_a_court_goes_straight_into_its_channel(options: dict[str, A
     rows = profile(line, area)
     inner = (rows.stations > 2.9) & (rows.stations < line.length - 1.9)
     assert rows.width[inner].min() >= 3.99
+
+
+@pytest.mark.parametrize("channel", ["shorter", "wider"])
+def test_a_line_does_not_turn_back_from_its_landing(channel: str) -> None:
+    points = shapely.get_coordinates(collapse(VALID["hole_on_hole"], channel=channel))
+    off = np.hypot(*(points - points[0]).T)
+    assert off[1] == pytest.approx(1.25, abs=1e-6)
+    assert (off[1:] >= off[1]).all()
 
 
 def test_a_court_with_its_building_far_from_the_ends_is_left_as_it_is() -> None:

@@ -208,8 +208,9 @@ def minimal_radii(
     scale, P is then so far back that the middle of PQ is not between the banks. Stations with such
     a radius are in a bay.
 
-    With ``holes="auxiliary"`` the auxiliary curve crosses to each island where the channel is
-    narrowest, goes round it and comes back; arc lengths count the way round, not the crossing.
+    With ``holes="auxiliary"`` the auxiliary curve crosses to each island from the vertex next to
+    where the channel is narrowest, goes round it and comes back; arc lengths count the way round,
+    not the crossing.
     ``channel="wider"`` closes channels, the narrowest first, as long as one way is left. So its
     curve passes each island once, on one side.
 

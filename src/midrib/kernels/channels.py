@@ -13,8 +13,8 @@ leave two banks and the widest way between them: no other way has a wider narrow
        .                   .. trunk            \ /     \  lead from the one end of the area to the
     main -----------------------                x-------x other: one way, without a choice.
 
-*Bridges* are closed channels as steps from one loop to another and back: a curve that takes them
-goes round each island, and comes back, on its way.
+*Bridges* are closed channels as steps from one loop to another and back, from vertex to vertex: a
+curve that takes them goes round each island, and comes back, on its way.
 """
 
 from typing import NamedTuple
@@ -39,6 +39,7 @@ from midrib.types import Bools, Floats, Ints
 
 __all__ = ["trace_wider", "with_islands"]
 
+HALF = 0.5
 MAIN, AUXILIARY = 0, 1  # loops; islands are numbered on
 
 
@@ -254,10 +255,11 @@ def close_channels(
             if loop[v] <= AUXILIARY:
                 continue
             px, py = mesh.x[v] * scale_x, mesh.y[v] * scale_y
-            j, _, squared = nearest_of(px, py, x, y, goes_on, boxes, j, stack)
+            j, share, squared = nearest_of(px, py, x, y, goes_on, boxes, j, stack)
             k = m + 2 * loop[v] + curve
             if np.sqrt(squared) < width[k]:
-                width[k], ends[k, 0], ends[k, 1] = np.sqrt(squared), chain.vertex[j], v
+                width[k], ends[k, 1] = np.sqrt(squared), v
+                ends[k, 0] = chain.vertex[j if share <= HALF else j + 1]
         for k in range(m + curve, m + 2 * n, 2):
             if width[k] < np.inf:
                 size = push(heap, width, size, k)
