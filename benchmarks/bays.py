@@ -56,10 +56,13 @@ these areas' stations.
 
 """
 CONCLUSION = """\
-The paper's curve and the symmetric one follow the trunk better without bays, so `collapse` leaves
-them out by default where one of these is asked for. Centred lines come from radii whose Q never
-travel back, and from probes in between: radii from bays are not among them, and leaving them out
-changes next to nothing. There the default is to draw them all.
+The paper's curve follows the trunk better without bays, most of all on rivers and lakes: its median
+p95 is a quarter to a third smaller there. So `collapse` leaves them out by default with
+`centring="none"`. The symmetric curve gains nothing that lasts: the curve from the other bank makes
+good what one bank's bays do, and radii are missing where one is left out. The centred line comes
+from radii whose Q never travel back and from probes in between, so that radii from bays are not
+among them anyway; fewer radii only leave it to find more by itself. There the default is to draw
+them all.
 """
 
 

@@ -65,13 +65,16 @@ USUAL: dict[str, Any] = {"ends": "caps", "centring": "centred", "end_clearance":
 def construction_of_collapse(**options: Any) -> Construction:
     """Return the construction of ``collapse``, with its own defaults.
 
-    The trunk does not enter bays, nor do its points collapse into a shared end; other curves leave
-    out stations in bays and keep the end clearance of ``minimal_radii``.
+    The trunk does not enter bays, nor do its points collapse into a shared end; other curves keep
+    the end clearance of ``minimal_radii``. The paper's curve leaves out stations in bays; a mean
+    of two curves is not nearer to the trunk without them, see docs/bays.md.
     """
     usual = USUAL
     centring = options.get("centring", "centred")
     if not isinstance(centring, str) or centring != "centred":
-        usual = {"ends": "caps", "skip": "bays"}
+        usual = {"ends": "caps"}
+        if isinstance(centring, str) and centring == "none":
+            usual["skip"] = "bays"
     return Construction(**(usual | options))
 
 
