@@ -1,6 +1,6 @@
 """The bridge between geometries and arrays: polygons to rings, chains to lines."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -11,7 +11,15 @@ from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.kernels.rings import LARGEST, SMALLEST, Rings, normalise_rings, sizes
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Packed", "area_of_one", "normalised", "pack_areas", "place_text", "rings_of_area"]
+__all__ = [
+    "Packed",
+    "area_of_one",
+    "normalised",
+    "pack_areas",
+    "place_text",
+    "rings_of_area",
+    "without_holes",
+]
 
 
 class Packed(NamedTuple):
@@ -96,3 +104,12 @@ def area_of_one(area: object, name: str) -> Polygon:
 def place_text(point: Floats) -> str:
     """Coordinates of a point for a message."""
     return f"({point[0]:.12g}, {point[1]:.12g})"
+
+
+def without_holes(area: Any) -> Any:
+    """Polygon or MultiPolygon without the holes of its parts; anything else as it is."""
+    if isinstance(area, Polygon):
+        return Polygon(area.exterior)
+    if isinstance(area, MultiPolygon):
+        return MultiPolygon([Polygon(part.exterior) for part in area.geoms])
+    return area

@@ -63,7 +63,7 @@ class Banks(NamedTuple):
     slack: float  # lean that counts as none: that of rounding, or as much as is asked for
     last: Ints  # (2,) the segments that were nearest last time: the next point is not far
     window: Ints  # (2, 2) of main and auxiliary: the segments from .. to that can be nearest
-    is_windowed: bool  # whether windows hold; islands belong to no run of segments
+    is_windowed: bool  # whether windows hold; islands and bridges belong to no run of segments
     stack: Ints
 
 
@@ -83,15 +83,18 @@ class Lean(NamedTuple):
 def bank_of(
     mesh: Mesh, chain: Chain, loops: Loops, is_main: bool, scale_x: float, scale_y: float
 ) -> Bank:
-    """Bank of one curve and of the islands that go with it; O(n)."""
+    """Bank of one curve, but for its bridges, and of what goes with it; O(n)."""
     n = chain.vertex.size
     size = n
     for k in range(loops.is_main.size):
         if loops.is_main[k] == is_main:
             size += loops.start[k + 1] - loops.start[k] + 1
+    size += 2 * int(np.count_nonzero(loops.wall_is_main == is_main))
     x, y, goes_on = np.empty(size), np.empty(size), np.ones(size, np.bool_)
     for i in range(n):
         x[i], y[i] = mesh.x[chain.vertex[i]] * scale_x, mesh.y[chain.vertex[i]] * scale_y
+    for i in range(n - 1):
+        goes_on[i] = chain.side[i] >= 0
     goes_on[n - 1] = False
     for k in range(loops.is_main.size):
         if loops.is_main[k] != is_main:
@@ -103,6 +106,12 @@ def bank_of(
         v = mesh.tri[next_side(loops.side[loops.start[k + 1] - 1])]
         x[n], y[n], goes_on[n] = mesh.x[v] * scale_x, mesh.y[v] * scale_y, False
         n += 1
+    for k in range(loops.wall_is_main.size):
+        if loops.wall_is_main[k] == is_main:
+            x[n], y[n] = loops.wall[k, 0] * scale_x, loops.wall[k, 1] * scale_y
+            x[n + 1], y[n + 1] = loops.wall[k, 2] * scale_x, loops.wall[k, 3] * scale_y
+            goes_on[n + 1] = False
+            n += 2
     return Bank(x, y, goes_on, box_tree(x, y))
 
 
@@ -126,7 +135,7 @@ def banks_of(
         max(slack, TIE_OF_COORDINATE * largest),
         np.zeros(2, np.intp),
         np.array([[0, MANY], [0, MANY]]),
-        loops.is_main.size == 0,
+        loops.is_main.size == 0 and auxiliary.side.min() >= 0,
         np.empty(DEPTH, np.intp),
     )
 

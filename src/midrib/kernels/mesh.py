@@ -24,6 +24,7 @@ __all__ = [
     "Mesh",
     "Triangulated",
     "contains",
+    "doors",
     "is_beyond",
     "mesh_rings",
     "next_boundary_side",

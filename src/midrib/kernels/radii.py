@@ -84,7 +84,7 @@ def draw_radii(
             seen = (seen + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
             if low[i] > low[i - 1] or high[i] < high[i - 1]:
                 reach = np.inf
-        # 2. The nearest point at all is the answer if P sees it.
+        # 2. The nearest point at all is the answer if P sees it, and it is not on a bridge.
         j, share, kind, squared, is_tie = nearest_on_chain(
             spot.x * scale_x,
             spot.y * scale_y,
@@ -107,7 +107,7 @@ def draw_radii(
         a, b = vertex[j], vertex[j + 1]
         qx = mesh.x[b] if share == 1.0 else mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
         qy = mesh.y[b] if share == 1.0 else mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-        if not is_tie and sees(mesh, spot, side[j], qx, qy):
+        if not is_tie and side[j] >= 0 and sees(mesh, spot, side[j], qx, qy):
             at_vertex = a if share == 0.0 else b if share == 1.0 else -1
             at_arc = arc[j + 1] if share == 1.0 else arc[j] + share * (arc[j + 1] - arc[j])
             found[total, 2], found[total, 3], found[total, 4] = qx, qy, at_arc

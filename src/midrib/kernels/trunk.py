@@ -29,9 +29,10 @@ from midrib.kernels.banks import (
     way_to_level,
 )
 from midrib.kernels.chain import Chain
-from midrib.kernels.islands import Loops, has_islands, loops_of
+from midrib.kernels.islands import has_islands, loops_of, no_loops
 from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, join_beads, string_beads
+from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import (
@@ -48,7 +49,7 @@ from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
 from midrib.types import Floats, Ints
 
-__all__ = ["trace_trunk"]
+__all__ = ["APART", "SHARE_OF_SLACK", "Stops", "ends_of", "trace", "trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -118,7 +119,7 @@ def trace_trunk(
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
-    loops = Loops(np.empty(0, np.intp), np.zeros(1, np.intp), np.empty(0, np.bool_))
+    loops = no_loops()
     kept = beads_in_order(points[:, 4], first, n)
     path, source = beads.point[kept], kept
     if has_islands(mesh, main, auxiliary):
@@ -128,7 +129,7 @@ def trace_trunk(
         for k in range(source.size):
             if source[k] >= 0:
                 source[k] = kept[source[k]] if source[k] < kept.size else n
-        loops = loops_of(mesh, main, auxiliary, path)
+        loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
     for i in range(points.shape[0]):
@@ -144,7 +145,15 @@ def trace_trunk(
         near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = stops_on(mesh, banks, beads, near, path, source, scale_x, scale_y)
+    before = np.full((2, 2), np.nan)
+    if loops.wall_is_main.size > 0:
+        banks, point, stop_at, before = land(
+            mesh, main, auxiliary, banks, loops, beads, stops.point, stops.at, scale_x, scale_y
+        )
+        stops = Stops(point, stop_at, np.zeros((stop_at.size, 2), np.intp))  # no windows here
+        ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     path, source = trace(mesh, banks, beads, stops, ends, tolerance, apart, scale_x, scale_y)
+    path, source = take_off(path, source, beads, before)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
 
 

@@ -24,7 +24,15 @@ from midrib.kernels.triangulation import next_side, previous_side
 from midrib.kernels.windows import Spot, add_window, first_windows, part_window, with_room
 from midrib.types import Floats, Ints
 
-__all__ = ["View", "keep_ties", "look", "new_view", "ray_meets_side", "sees"]
+__all__ = [
+    "View",
+    "keep_ties",
+    "look",
+    "new_view",
+    "ray_meets_side",
+    "sees",
+    "squared_distance_to_side",
+]
 
 WINDOWS_PER_SIDE = 64  # rays go forward only, so that a side is looked through once a hole at most
 
@@ -266,8 +274,12 @@ def look(
 
 @njit(borrows=True)
 def segment_at(goal: Goal, vertex: int) -> int:
-    """Segment of the curve that leaves one of its vertices; of its end, the one that arrives."""
-    return min(goal.place[vertex], goal.chain.side.size - 1)
+    """Segment of the curve that leaves one of its vertices; of its end, the one that arrives.
+
+    So too where a bridge leaves the vertex.
+    """
+    j = min(goal.place[vertex], goal.chain.side.size - 1)
+    return j if goal.chain.side[j] >= 0 else j - 1
 
 
 # -- ties ------------------------------------------------------------------------------------------
