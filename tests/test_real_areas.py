@@ -11,7 +11,7 @@ import pytest
 import shapely
 from numpy.typing import NDArray
 
-from midrib import collapse
+from midrib import collapse, profile
 
 geopandas = pytest.importorskip("geopandas")
 pyogrio = pytest.importorskip("pyogrio")
@@ -109,3 +109,45 @@ def test_the_stress_set_ends_in_lines_or_reasons() -> None:
         if area.is_valid:
             assert area.covers(line), i
     assert not [i for i in reasons if areas[i].is_valid]
+
+
+@pytest.mark.parametrize("feature", [1, 8])
+def test_lines_of_courts_are_in_the_middle_of_their_channels(feature: int) -> None:
+    """A building nearly fills the court; the lines ran along its wall for a fifth of their way."""
+    frame = geopandas.read_file(FOLDER / "osm_fi_helsinki.gpkg", layer="areas")
+    (area,) = frame.geometry.iloc[[feature]].to_crs(frame.estimate_utm_crs())
+    (area,) = shapely.get_parts(area)
+    rows = profile(collapse(area), area)
+    away = np.minimum(rows.stations, rows.stations[-1] - rows.stations)
+    building = shapely.get_interior_ring(area, 0)
+    channel = shapely.distance(area.exterior, building)
+    assert rows.width[away > channel].min() > 0.9 * channel
+    assert (away > channel).sum() > 4
+
+
+def test_a_ring_closed_by_a_touch_has_a_line_round_it() -> None:
+    """A hole touches the shell in one vertex: there were 2.7 m of line where 20 m are possible."""
+    frame = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="vlak")
+    (area,) = shapely.get_parts(frame.geometry.iloc[706])
+    line = collapse(area)
+    assert area.covers(line)
+    assert line.length > 20.0
+    ends = shapely.points(line.coords[:: len(line.coords) - 1])
+    touch = area.exterior.intersection(area.interiors[1])
+    assert shapely.distance(ends, touch).max() < 2.5  # half the mean width
+
+
+def test_rivers_pass_islands_by_every_rule() -> None:
+    areas = areas_of("geomaps_rivers_americas_poland.parquet", None).to_numpy()
+    areas = areas[shapely.is_valid(areas)]
+    areas = areas[shapely.get_num_interior_rings(areas) > 1][::4]
+    assert len(areas) > 0
+    ways: list[dict[str, Any]] = [
+        {"holes": "auxiliary"},
+        {"holes": "auxiliary", "centring": "none"},
+        {"channel": "wider"},
+    ]
+    for options in ways:
+        lines = collapse(areas, **options)
+        assert outside(lines, areas) == []
+        assert shapely.is_simple(lines).all()

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from midrib.kernels import ends as kernel
+from midrib.kernels.ends import propose_ends
 from midrib.kernels.layout import lay_out_rings
 from midrib.kernels.rings import Rings
+from midrib.kernels.touches import propose_division
 from midrib.layout import (
     NO_HEIGHT,
     Boundary,
@@ -19,7 +20,7 @@ from midrib.layout import (
 )
 from midrib.types import Floats, Ints
 
-__all__ = ["End", "end_at", "end_far_from", "lay_out_ends", "lay_out_proposed"]
+__all__ = ["End", "end_at", "end_far_from", "lay_out_ends", "lay_out_proposed", "proposed"]
 
 HALF = 0.5
 
@@ -53,7 +54,21 @@ def lay_out_proposed(rings: Rings, height: Floats | None, scale: Scale) -> Layou
     if divided.is_divided:
         return layout_of(divided, scale)
     boundary = boundary_of(rings, height)
-    return lay_out(boundary, *proposed(boundary, scale, -1), scale)
+    found = propose_division(
+        boundary.mesh,
+        boundary.order,
+        boundary.side,
+        NO_HEIGHT if boundary.height is None else boundary.height,
+        not boundary.has_holes,
+        *scale,
+    )
+    boundary = boundary._replace(
+        mesh=found.mesh,
+        order=found.order,
+        side=found.side,
+        height=None if boundary.height is None else found.height,
+    )
+    return lay_out(boundary, found.places, found.shares, scale)
 
 
 def end_far_from(boundary: Boundary, given: End, scale: Scale) -> End:
@@ -64,10 +79,8 @@ def end_far_from(boundary: Boundary, given: End, scale: Scale) -> End:
 
 
 def proposed(boundary: Boundary, scale: Scale, source: int) -> tuple[Ints, Floats]:
-    """Return the places of two ends; the mesh vertex ``source``, if any, is the first one."""
-    return kernel.propose_ends(
-        boundary.mesh, boundary.order, boundary.n_shell, source, not boundary.has_holes, *scale
-    )
+    """Return the places of two ends on the shell; the mesh vertex ``source``, if any, is one."""
+    return propose_ends(boundary.mesh, boundary.order, source, not boundary.has_holes, *scale)
 
 
 def lay_out_ends(

@@ -6,6 +6,7 @@ import numpy as np
 
 from midrib.errors import InvalidAreaError, InvariantError
 from midrib.kernels.chain import Chain
+from midrib.kernels.channels import with_islands
 from midrib.kernels.division import AGAINST, LONGER, WITH, Divided, divide_shell
 from midrib.kernels.mesh import Mesh, mesh_rings
 from midrib.kernels.rings import Rings
@@ -35,7 +36,6 @@ class Boundary(NamedTuple):
     mesh: Mesh
     order: Ints
     side: Ints
-    n_shell: int  # mesh vertices below it are the shell's
     has_holes: bool
     height: Floats | None  # of each mesh vertex
 
@@ -60,9 +60,19 @@ class Layout(NamedTuple):
     height: Floats | None
     mean_width: float  # area within the shell over the mean length of the two curves
 
+    def bridged(self) -> "Layout":
+        """Return the same strip with an auxiliary curve that goes round the islands too."""
+        strip = self.mesh, self.main, self.auxiliary
+        return self._replace(auxiliary=with_islands(*strip, *self.scale))
+
     def swapped(self) -> "Layout":
         """Return the same strip with main and auxiliary curve swapped."""
         return self._replace(main=self.auxiliary, auxiliary=self.main)
+
+    @property
+    def has_bridges(self) -> bool:
+        """Whether the auxiliary curve goes round islands."""
+        return bool(self.auxiliary.side.min() < 0)
 
     @property
     def shares_start(self) -> bool:
@@ -97,7 +107,7 @@ def boundary_of(rings: Rings, height: Floats | None = None) -> Boundary:
             if height is not None:
                 height = height[rings.origin]
             order, side = done.vertex_of[:n], done.side_of_segment[:n]
-            return Boundary(done.mesh, order, side, n, rings.x.size > n, height)
+            return Boundary(done.mesh, order, side, rings.x.size > n, height)
         rings = with_touches(rings, done.touches)
 
 

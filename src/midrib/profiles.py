@@ -22,7 +22,7 @@ from shapely import LineString, MultiLineString, Polygon
 
 from midrib import interrupts
 from midrib.checks import is_number, shown
-from midrib.curves.collapse import Log, collapse, valid_parts
+from midrib.curves.collapse import Log, collapse, filled_parts, valid_parts
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
 from midrib.kernels.clearance import clearances
@@ -204,9 +204,12 @@ def profiles_of(
 ) -> Iterator[PartProfile]:
     """Profile along the line of each area, part by part; refusals go to the log.
 
-    The line is that of ``collapse``, whose method and options these are.
+    The line is that of ``collapse``, whose method and options these are. Holes that it ignores do
+    not bound the widths either.
     """
     parts = list(valid_parts(areas, log))
+    if options.get("holes") == "ignored":
+        parts = filled_parts(parts)
     guides = object_array([None if along is None else along[part.area] for part in parts])
     lines, problems = collapse(
         object_array([part.polygon for part in parts]),

@@ -1,6 +1,6 @@
 """The bridge between geometries and arrays: polygons to rings, chains to lines."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -11,7 +11,15 @@ from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.kernels.rings import LARGEST, SMALLEST, Rings, normalise_rings, sizes
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Packed", "area_of_one", "normalised", "pack_areas", "place_text", "rings_of_area"]
+__all__ = [
+    "Packed",
+    "area_of_one",
+    "normalised",
+    "pack_areas",
+    "place_text",
+    "rings_of_area",
+    "without_holes",
+]
 
 
 class Packed(NamedTuple):
@@ -52,12 +60,19 @@ def normalised(rows: Floats, offsets: Ints) -> tuple[Rings, Floats | None]:
 def pack_areas(polygons: NDArray[np.object_]) -> Packed:
     """Arrays of an array of Polygons, none missing or empty."""
     has_z = shapely.has_z(polygons)
-    rings, owner = shapely.get_rings(polygons, return_index=True)
-    coordinates = shapely.get_coordinates(rings, include_z=bool(has_z.any()))
-    ring_offsets = np.zeros(rings.size + 1, dtype=np.intp)
-    np.cumsum(shapely.get_num_coordinates(rings), out=ring_offsets[1:])
-    area_offsets = np.searchsorted(owner, np.arange(polygons.size + 1))
-    return Packed(coordinates, ring_offsets, area_offsets, has_z)
+    coordinates = shapely.get_coordinates(polygons, include_z=bool(has_z.any()))
+    area_offsets = offsets(1 + shapely.get_num_interior_rings(polygons))
+    # Without holes areas are rings; to make the rings of all takes a third of the time otherwise.
+    has_holes = area_offsets[-1] > polygons.size
+    rings = shapely.get_rings(polygons) if has_holes else polygons
+    return Packed(coordinates, offsets(shapely.get_num_coordinates(rings)), area_offsets, has_z)
+
+
+def offsets(sizes: Ints) -> Ints:
+    """Where each of several runs starts, and where the last one ends."""
+    result = np.zeros(sizes.size + 1, dtype=np.intp)
+    np.cumsum(sizes, out=result[1:])
+    return result
 
 
 def rings_of_area(area: Polygon) -> tuple[Rings, Floats | None]:
@@ -89,3 +104,12 @@ def area_of_one(area: object, name: str) -> Polygon:
 def place_text(point: Floats) -> str:
     """Coordinates of a point for a message."""
     return f"({point[0]:.12g}, {point[1]:.12g})"
+
+
+def without_holes(area: Any) -> Any:
+    """Polygon or MultiPolygon without the holes of its parts; anything else as it is."""
+    if isinstance(area, Polygon):
+        return Polygon(area.exterior)
+    if isinstance(area, MultiPolygon):
+        return MultiPolygon([Polygon(part.exterior) for part in area.geoms])
+    return area

@@ -49,7 +49,8 @@ class Strip:
     Notes
     -----
     The rules are those of section 3 of the paper: the main and the auxiliary curve are together
-    the whole outer boundary, caps apart, and have no segment in common.
+    the whole outer boundary, caps apart, and have no segment in common. The curves of a ring that
+    is closed by a touch, which run along its hole too, come from ``midrib.split`` only.
 
     Examples
     --------
@@ -150,7 +151,9 @@ def split(
     Returns
     -------
     Strip
-        With the main curve running from start to end.
+        With the main curve running from start to end. Where the proposed ends are on either side
+        of a hole that touches the outer boundary in a vertex, the area is a ring closed by the
+        touch: the hole's boundary then belongs to the curves too.
 
     Raises
     ------

@@ -442,3 +442,44 @@ def test_lines_are_simplified_and_smoothed(simplify: str, midrib: Runner, tmp_pa
     assert shapely.from_wkt(BENT).covers(lines[0])
     assert attributes["length"].to_pylist() == shapely.length(lines).tolist()
     assert lines[0].length < plain[0].length
+
+
+RIVER = "POLYGON ((0 0, 90 0, 90 20, 0 20, 0 0), (40 4, 50 4, 50 12, 40 12, 40 4))"
+ARM = "POLYGON ((0 0, 40 0, 40 -30, 50 -30, 50 0, 90 0, 90 10, 0 10, 0 0))"
+
+
+@pytest.mark.parametrize(
+    ("options", "levels"),
+    [
+        (["--holes", "ignored"], [10.0]),
+        (["--holes", "auxiliary"], [2.0, 16.0]),
+        (["--channel", "wider"], [16.0]),
+    ],
+)
+def test_lines_pass_holes_as_they_are_told(
+    options: list[str], levels: list[float], midrib: Runner, tmp_path: Path
+) -> None:
+    """Main is the lower side: a directional polyline says so."""
+    source = write(tmp_path / "in.gpkg", [RIVER])
+    out, table = tmp_path / "out.gpkg", tmp_path / "out.csv"
+    assert midrib("collapse", source, out, "--quiet", *options).code == 0
+    _, attributes, (line,) = read_all(out)
+    across = line.intersection(shapely.LineString([(45, 0), (45, 20)]))
+    assert min(abs(across.y - level) for level in levels) < 0.25
+    assert midrib("profile", source, table, "--quiet", *options).code == 0
+    width = csv.read_csv(table)["width"].to_pylist()
+    assert max(width) == pytest.approx(20.0, abs=0.3)
+    if "ignored" in options:
+        assert attributes["width_max"].to_pylist() == [20.0]
+        assert min(width[1:-1]) == 20.0
+
+
+def test_the_status_says_how_many_stations_in_bays_were_left_out(
+    midrib: Runner, tmp_path: Path
+) -> None:
+    source, out = write(tmp_path / "in.gpkg", [STRIP, ARM]), tmp_path / "out.gpkg"
+    assert midrib("collapse", source, out, "--quiet", "--centring", "none").code == 0
+    plain, with_arm = read_all(out)[1]["status"].to_pylist()
+    assert plain == "ok"
+    assert with_arm.startswith("bays left out: ")
+    assert with_arm.endswith(" stations")

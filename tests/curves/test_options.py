@@ -183,6 +183,32 @@ def test_bays_are_left_out_and_listed() -> None:
     assert all(main.interpolate(s).y < 0.0 for s in without.bays)
 
 
+@pytest.mark.parametrize("power", [-60, 5])
+def test_bays_do_not_depend_on_the_scale(power: int) -> None:
+    factor = 2.0**power
+    main = np.array([(0, 0), (9, 0), (9, -6), (11, -6), (11, 0), (20, 0)])
+    auxiliary = np.array([(0, 2), (20, 2)])
+    curves = [
+        minimal_radii(Strip(LineString(f * main), LineString(f * auxiliary)), count=64, skip="bays")
+        for f in (1.0, factor)
+    ]
+    assert curves[0].bays.size > 0
+    assert np.array_equal(curves[1].bays, curves[0].bays * factor)
+
+
+@pytest.mark.parametrize("centring", ["none", "symmetric"])
+def test_reports_say_how_many_stations_in_bays_were_left_out(centring: str) -> None:
+    area = Polygon([(0, 0), (9, 0), (9, -6), (11, -6), (11, 0), (20, 0), (20, 2), (0, 2)])
+    options: dict[str, Any] = {"centring": centring, "on_error": "report", "ends": "caps"}
+    _, problems = collapse([rectangle(20, 2), area], skip="bays", **options)
+    (row,) = [p for p in problems if p.status == "bays left out"]
+    curve = minimal_radii(split(area), ends="caps", skip="bays")
+    assert row.index == 1
+    assert row.reason == f"{curve.bays.size} of {curve.bays.size + curve.stations.size} stations"
+    _, problems = collapse([rectangle(20, 2), area], skip=None, **options)
+    assert not [p for p in problems if p.status == "bays left out"]
+
+
 # -- ends ------------------------------------------------------------------------------------------
 
 

@@ -126,3 +126,16 @@ def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("midrib.figures.draw.find_spec", lambda _: None)
     with pytest.raises(MissingDependencyError, match=r"pip install midrib\[figures\]"):
         check_figure(Path("a.svg"))
+
+
+def test_holes_that_turn_like_their_shell_are_not_filled() -> None:
+    from midrib.figures.paper import path_of
+
+    shell, hole = [(0, 0), (9, 0), (9, 9), (0, 9)], [(3, 3), (6, 3), (6, 6), (3, 6)]
+    for rings in (hole, hole[::-1]):
+        path = path_of(shapely.Polygon(shell, [rings]))
+        corners = path.vertices
+        turns = [
+            shapely.is_ccw(shapely.linearrings(corners[i : i + 5])) for i in (0, len(corners) - 5)
+        ]
+        assert turns[0] != turns[1]

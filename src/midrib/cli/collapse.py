@@ -8,7 +8,7 @@ import typer
 
 from midrib.errors import ParameterError
 
-__all__ = ["collapse"]
+__all__ = ["Channel", "Holes", "collapse"]
 
 CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
 LAYERS, LINE, CARE, OUTPUT = "Which features", "How the line is made", "After-care", "Output"
@@ -37,6 +37,21 @@ class Mean(StrEnum):
     radii = "radii"
     proportional = "proportional"
     same_height = "same-height"
+
+
+class Holes(StrEnum):
+    """What holes are."""
+
+    blocked = "blocked"
+    auxiliary = "auxiliary"
+    ignored = "ignored"
+
+
+class Channel(StrEnum):
+    """On which side of islands a line passes."""
+
+    shorter = "shorter"
+    wider = "wider"
 
 
 class WidthPlace(StrEnum):
@@ -134,6 +149,25 @@ def collapse(
             rich_help_panel=LINE,
         ),
     ] = None,
+    holes: Annotated[
+        Holes,
+        typer.Option(
+            metavar="WHAT",
+            help="What holes are. blocked: in the way, the line goes round them; auxiliary: parts "
+            "of the other side, the line stays between the main side and them; ignored: nothing, "
+            "the line may cross them.",
+            rich_help_panel=LINE,
+        ),
+    ] = Holes.blocked,
+    channel: Annotated[
+        Channel,
+        typer.Option(
+            metavar="WHICH",
+            help="Where a centred line passes islands: the shorter way, or through the wider "
+            "channels.",
+            rich_help_panel=LINE,
+        ),
+    ] = Channel.shorter,
     ends: Annotated[
         EndRule,
         typer.Option(
@@ -240,7 +274,7 @@ def collapse(
             "simplify": simplify and deviation(simplify, features.crs, "--simplify"),
         }
         options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
-        options["centring"] = centring.value
+        options |= {"centring": centring.value, "holes": holes.value, "channel": channel.value}
         options["ends"] = None if ends is EndRule.none else ends.value
         if end_clearance is not None:
             options["end_clearance"] = clearance(end_clearance, features.crs)

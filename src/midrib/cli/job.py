@@ -14,6 +14,7 @@ from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
 from midrib.formats.writing import free_name
 from midrib.profiles import add_widths, with_m
+from midrib.ragged import without_holes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -92,6 +93,7 @@ def collapse_layer(
             refused=refused,
             geographic=geographic,
             connect=connect,
+            holes=options.get("holes") != "ignored",
         )
         add_refused(results, batch, refused)
         results.n_features += len(lines)
@@ -144,12 +146,18 @@ def add_lines(
     refused: dict[int, str],
     geographic: bool,
     connect: bool,
+    holes: bool,
 ) -> None:
-    """Keep the features that have a line, and those that never had a geometry."""
+    """Keep the features that have a line, and those that never had a geometry.
+
+    Without ``holes`` these do not bound the widths.
+    """
     keep = ~shapely.is_missing(lines)
     keep[[i for i in range(len(lines)) if i not in refused]] = True
     rows = np.flatnonzero(keep)
     lines, areas = lines[rows], batch.geometries[rows]
+    if not holes:
+        areas = np.array([*map(without_holes, areas), None], dtype=object)[:-1]
     length = measures.length(lines, geographic=geographic)
     own = pieces_inside(lines, areas) if connect else lines
     columns = {

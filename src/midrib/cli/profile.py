@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from midrib.cli.collapse import Channel, Holes
+
 __all__ = ["profile"]
 
 LAYERS, TABLE, OUTPUT = "Which features", "What the table holds", "Output"
@@ -65,6 +67,23 @@ def profile(
             rich_help_panel=TABLE,
         ),
     ] = "minimal-radii",
+    holes: Annotated[
+        Holes,
+        typer.Option(
+            metavar="WHAT",
+            help="What holes are to the line, as in [bold]midrib collapse[/]; ignored ones do not "
+            "bound the widths.",
+            rich_help_panel=TABLE,
+        ),
+    ] = Holes.blocked,
+    channel: Annotated[
+        Channel,
+        typer.Option(
+            metavar="WHICH",
+            help="Where the line passes islands, as in [bold]midrib collapse[/].",
+            rich_help_panel=TABLE,
+        ),
+    ] = Channel.shorter,
     out_layer: Annotated[
         str | None,
         typer.Option(
@@ -106,11 +125,12 @@ def profile(
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        check_options(method, {})
+        options = {"holes": holes.value, "channel": channel.value}
+        check_options(method, options)
         check_field(identifier, features)
         interval = None if spacing is None else length_in(spacing, features.crs, "--spacing")
         table = Table(features, identifier, interval)
-        profile_layer(table, method, guides_for(main, source, features), report)
+        profile_layer(table, method, options, guides_for(main, source, features), report)
     write_table(table, places, out_layer or layer, report)
     if table.n_refused:
         raise typer.Exit(1)

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
@@ -78,8 +78,10 @@ def check_field(identifier: str | None, source: "Source") -> None:
         raise ParameterError(msg)
 
 
-def profile_layer(table: Table, method: str, guides: "Guides", report: "Report") -> None:
-    """Profile all features of the table's layer, a batch at a time."""
+def profile_layer(
+    table: Table, method: str, options: dict[str, Any], guides: "Guides", report: "Report"
+) -> None:
+    """Profile all features of the table's layer, a batch at a time; options are of the line."""
     source = table.source
     geographic = is_geographic(source.crs)
     report.start()
@@ -90,7 +92,13 @@ def profile_layer(table: Table, method: str, guides: "Guides", report: "Report")
         areas[list(refused)] = None
         log = Log(None, strict=False)
         for found in profiles_of(
-            areas, method, log, along=along, spacing=table.spacing, geographic=geographic
+            areas,
+            method,
+            log,
+            along=along,
+            spacing=table.spacing,
+            geographic=geographic,
+            **options,
         ):
             add_profile(table, batch, found)
         for problem in log.problems:

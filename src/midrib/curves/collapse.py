@@ -1,7 +1,7 @@
 """Areas in, one branchless line each out."""
 
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
@@ -25,7 +25,7 @@ from midrib.errors import (
 )
 from midrib.geodesy import degree_lengths
 from midrib.layout import Scale
-from midrib.ragged import pack_areas
+from midrib.ragged import pack_areas, without_holes
 from midrib.repair import overlaps, repaired
 from midrib.strip import PLANE
 
@@ -42,11 +42,11 @@ __all__ = ["Joint", "Problem", "collapse"]
 
 @dataclass(frozen=True)
 class Problem:
-    """What there is to say about an area: it was refused, repaired, or its line lost loops."""
+    """What there is to say about an area: refused, repaired, loops cut, bays left out."""
 
     index: Any  # position of the area, or its label in a GeoSeries
     part: int  # of a MultiPolygon, else 0
-    status: Literal["refused", "repaired", "loops cut", "joint", "no joint"]
+    status: Literal["refused", "repaired", "loops cut", "bays left out", "joint", "no joint"]
     reason: str
 
 
@@ -82,7 +82,8 @@ def collapse(
         One of ``midrib.methods()``.
     on_error : {"raise", "report"}, default "raise"
         ``"report"`` returns ``(lines, problems)``: an area that is refused gives None and a row of
-        ``problems`` that says why; repaired areas and lines that lost loops get a row too.
+        ``problems`` that says why; repaired areas, lines that lost loops and those for which
+        stations in bays were left out (how many) get a row too.
     along : LineString or array_like of them, optional
         Directional polylines, one for each area or None: the main curve is the part of the
         boundary beside it, see ``midrib.split``.
@@ -102,8 +103,8 @@ def collapse(
         it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
-        ``centring`` is ``"centred"`` and ``end_clearance`` None; with another centring stations
-        in bays are left out, unless a ``tolerance`` chooses the stations.
+        ``centring`` is ``"centred"`` and ``end_clearance`` None; with ``centring="none"`` ``skip``
+        is ``"bays"``, unless a ``tolerance`` chooses the stations.
 
     Returns
     -------
@@ -126,7 +127,8 @@ def collapse(
     The two ends come from the area's shape (``midrib.split``), the line from the radii between
     the two sides (``midrib.minimal_radii``), a mean width apart, and from probes in between that
     move it to where both sides are equally far. Every line is covered by its area, exactly, or by
-    the repaired area where one was repaired. So are simplified and smoothed lines, which keep their
+    the repaired area where one was repaired; with ``holes="ignored"`` by the area without its
+    holes. So are simplified and smoothed lines, which keep their
     ends and do not meet themselves: where a shorter way would leave the area, the vertices stay.
 
     With ``connect`` an area begins and ends at the shared edges that are at the ends its shape
@@ -167,7 +169,10 @@ def collapse(
     log = Log(labels, strict=on_error == "raise")
     with interrupts.deferred():
         flat, along = array.ravel(), guides(along, array.size)
-        lines = collapse_all(flat, find, along, bool(geographic), log, care, connect=connect)
+        lines = collapse_all(
+            flat, find, along, bool(geographic), log, care,
+            connect=connect, fills=options.get("holes") == "ignored",
+        )  # fmt: skip
     result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
@@ -194,7 +199,11 @@ class Log:
         self.problems.append(Problem(self.label(index), part, "refused", str(error)))
 
     def note(
-        self, index: int, part: int, status: Literal["repaired", "loops cut"], reason: str
+        self,
+        index: int,
+        part: int,
+        status: Literal["repaired", "loops cut", "bays left out"],
+        reason: str,
     ) -> None:
         """Record something about a line that is there; a strict log warns of repairs."""
         if not self.strict:
@@ -266,9 +275,10 @@ def collapse_all(
     care: Aftercare,
     *,
     connect: bool,
+    fills: bool,
 ) -> "Areas":
     """Lines of a flat array of areas."""
-    parts = list(valid_parts(areas, log))
+    parts = filled_parts(valid_parts(areas, log)) if fills else list(valid_parts(areas, log))
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
@@ -310,6 +320,11 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
         else:
             yield from apart(list(repaired_parts(i, polygons, log)), log)
+
+
+def filled_parts(parts: Iterable[Part]) -> list[Part]:
+    """Parts without their holes."""
+    return [part._replace(polygon=without_holes(part.polygon)) for part in parts]
 
 
 def repaired_parts(i: int, polygons: Sequence[Polygon], log: Log) -> Iterator[Part]:
@@ -407,6 +422,9 @@ def lines_of(
             continue
         if found.loops:
             log.note(part.area, part.number, "loops cut", f"{found.loops} loops cut")
+        if found.bays:
+            count = f"{found.bays} of {found.bays + found.stations} stations"
+            log.note(part.area, part.number, "bays left out", count)
         points = found.points
         if found.height is not None:
             points = np.column_stack([points, found.height])

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from midrib.checks import is_number, shown
 from midrib.curves.averaging import Mean, average, check_mean
-from midrib.curves.joining import EndRule, between_ends, check_ends, join_middles
+from midrib.curves.joining import Channel, EndRule, between_ends, check_ends, join_middles
 from midrib.curves.limit import draw_limit
 from midrib.curves.radii import EndClearance, Radii, draw_radii
 from midrib.curves.stations import WHOLE, Skip, StationRule
@@ -17,10 +17,13 @@ if TYPE_CHECKING:
     from midrib.curves.joining import Path
     from midrib.layout import Layout
 
-__all__ = ["CENTRED_WITHIN", "Centring", "Construction"]
+__all__ = ["CENTRED_WITHIN", "Centring", "Construction", "Holes"]
 
 Centring: TypeAlias = Literal["none", "symmetric", "centred"]
+Holes: TypeAlias = Literal["blocked", "auxiliary", "ignored"]
 CENTRINGS = ("none", "symmetric", "centred")
+HOLES = ("blocked", "auxiliary", "ignored")
+CHANNELS = ("shorter", "wider")
 CENTRED_WITHIN = 1.0 / 100.0  # of the mean width, unless a tolerance is given
 
 
@@ -47,6 +50,8 @@ class Construction:
         end_clearance: EndClearance = "proportional",
         centring: Centring = "none",
         mean: Mean | None = None,
+        holes: Holes = "blocked",
+        channel: Channel = "shorter",
     ) -> None:
         self.ends, self.end_clearance = check_ends(ends, end_clearance)
         check_centring(centring)
@@ -55,13 +60,15 @@ class Construction:
         if self.follows_limit:
             refuse_with_tolerance(
                 spacing=spacing, count=count, percent=percent, vertices=vertices, stations=stations,
-                skip=skip,
+                skip=skip, holes="auxiliary" if holes == "auxiliary" else None,
             )  # fmt: skip
+        check_holes(holes, channel, centring)
         check_mean(mean, centring)
         if vertices is None:
             vertices = centring != "centred"  # the trunk is probed between radii anyway
         self.rule = StationRule(spacing, count, percent, vertices, stations, skip)
         self.centring, self.mean = centring, mean
+        self.holes, self.channel = holes, channel
 
     def of(self, layout: "Layout") -> "tuple[Radii, Path]":
         """Radii and the chain that is made from them.
@@ -71,6 +78,8 @@ class Construction:
         InvalidAreaError
             If no station sees anything of the auxiliary curve, or the curve is one point.
         """
+        if self.holes == "auxiliary":
+            layout = layout.bridged()
         radii, ends = between_ends(self.radii(layout), self.ends)
         if self.centring == "symmetric":
             other = layout.swapped()
@@ -85,7 +94,9 @@ class Construction:
                 self.mean,
             )
         if self.centring == "centred":
-            return radii, join_middles(layout, radii, ends, centred_within=self.within(layout))
+            return radii, join_middles(
+                layout, radii, ends, centred_within=self.within(layout), channel=self.channel
+            )
         return radii, join_middles(layout, radii, ends)
 
     def radii(self, layout: "Layout") -> Radii:
@@ -145,3 +156,22 @@ def refuse_with_tolerance(**options: Any) -> None:
                 "tolerance chooses the stations"
             )
             raise ParameterError(msg)
+
+
+def check_holes(holes: Any, channel: Any, centring: Any) -> None:
+    """Refuse meanings of holes and ways past islands that do not exist."""
+    if not isinstance(holes, str) or holes not in HOLES:
+        msg = f"holes is {shown(holes)}, expected 'blocked', 'auxiliary' or 'ignored'"
+        raise ParameterError(msg)
+    if holes == "auxiliary" and centring == "symmetric":
+        msg = "holes='auxiliary' goes with centring='none' or 'centred', found 'symmetric'"
+        raise ParameterError(msg)
+    if not isinstance(channel, str) or channel not in CHANNELS:
+        msg = f"channel is {shown(channel)}, expected 'shorter' or 'wider'"
+        raise ParameterError(msg)
+    if channel == "wider" and (holes != "blocked" or centring != "centred"):
+        msg = (
+            "channel='wider' goes with holes='blocked' and centring='centred', found "
+            f"holes={holes!r} and centring={centring!r}"
+        )
+        raise ParameterError(msg)

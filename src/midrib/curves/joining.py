@@ -18,14 +18,16 @@ from midrib.curves.heights import heights_inside
 from midrib.curves.radii import EndClearance, Radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels import joining as kernel
+from midrib.kernels.channels import trace_wider
 from midrib.kernels.radii import draw_radii
 from midrib.kernels.trunk import trace_trunk
 from midrib.layout import EndPoints, Layout
 from midrib.strip import pair_of
 from midrib.types import Floats, Ints
 
-__all__ = ["EndRule", "Path", "between_ends", "check_ends", "heights_of", "join_middles"]
+__all__ = ["Channel", "EndRule", "Path", "between_ends", "check_ends", "heights_of", "join_middles"]
 
+Channel: TypeAlias = Literal["shorter", "wider"]
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None
 RULES = ("main", "caps", "radii")
 CLEARANCES = ("station", "proportional")
@@ -50,23 +52,32 @@ class Path(NamedTuple):
 
 
 def join_middles(
-    layout: Layout, radii: Radii, rule: EndRule, *, centred_within: float | None = None
+    layout: Layout,
+    radii: Radii,
+    rule: EndRule,
+    *,
+    centred_within: float | None = None,
+    channel: Channel = "shorter",
 ) -> Path:
     """Join the ends and the middles of radii by shortest paths inside the area; cut loops.
 
     Radii that never turn back cut an area without holes into pieces in order, so that the chain
     has no loops; radii that lie on each other or on the boundary are the exception to that.
     With ``centred_within`` (a length) the chain goes through the points of the radii that are
-    equally far from both banks, and is nowhere probed to be farther than that from such a point.
+    equally far from both banks, and is nowhere probed to be farther than that from such a point;
+    where there are islands, through channels by ``channel``.
     """
     ends = end_points(layout, rule)
     strung = radii.points, radii.at, ends.point, ends.origin, ends.at
+    mesh, main, auxiliary = layout.mesh, layout.main, layout.auxiliary
     if centred_within is None:
-        points, source, loops, beads = kernel.join_middles(layout.mesh, *strung, *layout.scale)
+        joined = kernel.join_middles(mesh, *strung, *layout.scale)
+    elif channel == "wider" or layout.has_bridges:
+        within = (rule not in ("main", "caps"), centred_within)
+        joined = trace_wider(mesh, main, auxiliary, *strung, *within, *layout.scale)
     else:
-        points, source, loops, beads = trace_trunk(
-            layout.mesh, layout.main, layout.auxiliary, *strung, centred_within, *layout.scale
-        )
+        joined = trace_trunk(mesh, main, auxiliary, *strung, centred_within, *layout.scale)
+    points, source, loops, beads = joined
     if rule not in RULES and len(ends.point):
         refuse_ends_outside(ends, points, source, len(radii.points) + 2)
     if points.shape[0] < 2:

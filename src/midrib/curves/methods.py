@@ -23,11 +23,13 @@ __all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of",
 
 
 class Found(NamedTuple):
-    """A line as arrays: points, Z of each or None, and the number of loops cut."""
+    """A line as arrays: points, Z of each or None; loops cut, stations left out as bays, others."""
 
     points: "Floats"
     height: "Floats | None"
     loops: int
+    bays: int = 0
+    stations: int = 0
 
 
 class Finder(Protocol):
@@ -62,15 +64,16 @@ USUAL: dict[str, Any] = {"ends": "caps", "centring": "centred", "end_clearance":
 def construction_of_collapse(**options: Any) -> Construction:
     """Return the construction of ``collapse``, with its own defaults.
 
-    The trunk does not enter bays, nor do its points collapse into a shared end; other curves leave
-    out stations in bays, unless a tolerance chooses the stations, and keep the end clearance of
-    ``minimal_radii``.
+    The trunk does not enter bays, nor do its points collapse into a shared end; other curves keep
+    the end clearance of ``minimal_radii``. The paper's curve leaves out stations in bays, unless a
+    tolerance chooses them; a mean of two curves is not nearer to the trunk without, see
+    docs/bays.md.
     """
     usual = USUAL
     centring = options.get("centring", "centred")
     if not isinstance(centring, str) or centring != "centred":
         usual = {"ends": "caps"}
-        if options.get("tolerance") is None:
+        if centring == "none" and options.get("tolerance") is None:
             usual["skip"] = "bays"
     return Construction(**(usual | options))
 
@@ -79,7 +82,10 @@ def minimal_radii_finder(**options: Any) -> "Finder":
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
     plain = {"ends": construction.ends, "end_clearance": construction.end_clearance}
-    is_usual = (options | plain).items() <= USUAL.items()  # arrays would not compare
+    usual = USUAL | {"channel": "shorter"}
+    if construction.holes != "auxiliary":
+        usual["holes"] = construction.holes  # those to be ignored are not there any more
+    is_usual = (options | plain).items() <= usual.items()  # arrays would not compare
 
     def find(
         coordinates: "Floats",
@@ -94,8 +100,9 @@ def minimal_radii_finder(**options: Any) -> "Finder":
             if is_done:
                 return Found(points, None, loops)
         rings, height = normalised(coordinates, offsets)
-        _, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
-        return Found(path.points, path.height, path.loops)
+        radii, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
+        bays, stations = radii.bays.size, radii.stations.size
+        return Found(path.points, path.height, path.loops, bays, stations)
 
     return find
 

@@ -8,11 +8,12 @@ import numpy as np
 from shapely import LineString
 
 from midrib.curves.averaging import Mean
-from midrib.curves.construction import Centring, Construction
-from midrib.curves.joining import EndRule
+from midrib.curves.construction import Centring, Construction, Holes
+from midrib.curves.joining import Channel, EndRule
 from midrib.curves.radii import EndClearance, jumps_of
 from midrib.curves.stations import Skip
 from midrib.errors import GeometryTypeError
+from midrib.ragged import without_holes
 from midrib.strip import Strip
 
 if TYPE_CHECKING:
@@ -114,6 +115,8 @@ def minimal_radii(
     end_clearance: EndClearance = "proportional",
     centring: Centring = "none",
     mean: Mean | None = None,
+    holes: Holes = "blocked",
+    channel: Channel = "shorter",
 ) -> Curve:
     """Curve of minimal radii of a strip.
 
@@ -145,10 +148,10 @@ def minimal_radii(
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
-        Stations to drop. ``"bays"``: those in bays and side arms of the main curve, where Q sees
-        the main curve nearer than P by a factor of 1.5. Others: by index; by ``slice`` of
-        indices, or of arc lengths where its bounds are floats; those whose P lies in a Polygon;
-        those for which a function of stations (n,) and points (n, 2) returns True.
+        Stations to drop. ``"bays"``: those in bays and side arms of the main curve, by the rule of
+        lopsided radii, see the notes; ``bays`` of the result lists them. Others: by index; by
+        ``slice`` of indices, or of arc lengths where its bounds are floats; those whose P lies in a
+        Polygon; those for which a function of stations (n,) and points (n, 2) returns True.
     ends : {"main", "caps", "radii"}, pair of points or None, default "main"
         How the curve ends (section 4): at the ends of the main curve; halfway between
         corresponding ends of the two curves; at the middles of the radii at the main curve's ends
@@ -168,6 +171,16 @@ def minimal_radii(
         curves together ("radii", the default); in equal shares of the two lengths
         ("proportional", Rhino's mean curve); at the same height along the strip, or along a
         direction (dx, dy).
+    holes : {"blocked", "auxiliary", "ignored"}, default "blocked"
+        What the area's holes, its islands, are. "blocked": in the way: no radius crosses one, and
+        the curve goes round it. "auxiliary": parts of the auxiliary curve too: radii end on them,
+        and the curve stays between the main curve and them. "ignored": nothing: the curve is that
+        of the area without holes, which it may cross; it is covered by that area, and ``strip`` of
+        the result is without holes.
+    channel : {"shorter", "wider"}, default "shorter"
+        On which side a centred curve passes each island that is "blocked". "shorter": where the
+        shortest way between the radii does. "wider": through the channels whose narrowest place
+        is widest, over all ways from end to end.
 
     Returns
     -------
@@ -202,6 +215,16 @@ def minimal_radii(
     is halfway between P and Q, and as far from the main as from the auxiliary curve only where
     the main curve is straight and parallel. A sight along a wall ends where a hole touches it.
 
+    A radius is lopsided if Q sees the main curve nearer than P by a factor of 1.5: whatever the
+    scale, P is then so far back that the middle of PQ is not between the banks. Stations with such
+    a radius are in a bay.
+
+    With ``holes="auxiliary"`` the auxiliary curve crosses to each island from the vertex next to
+    where the channel is narrowest, goes round it and comes back; arc lengths count the way round,
+    not the crossing.
+    ``channel="wider"`` closes channels, the narrowest first, as long as one way is left. So its
+    curve passes each island once, on one side.
+
     References
     ----------
     Buczek, Area collapse algorithm computing new curve of 2D geometric objects, Geodesy and
@@ -231,5 +254,9 @@ def minimal_radii(
         end_clearance=end_clearance,
         centring=centring,
         mean=mean,
+        holes=holes,
+        channel=channel,
     )
+    if holes == "ignored" and strip.area.interiors:
+        strip = Strip(strip.main, strip.auxiliary, without_holes(strip.area))
     return Curve(strip, *construction.of(strip.layout))

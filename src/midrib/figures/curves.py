@@ -8,7 +8,7 @@ from shapely import LineString
 
 from midrib import interrupts
 from midrib.curves.aftercare import aftercare, tend
-from midrib.curves.collapse import Log, valid_parts
+from midrib.curves.collapse import Log, filled_parts, valid_parts
 from midrib.curves.methods import construction_of_collapse
 from midrib.curves.minimal_radii import Curve
 from midrib.errors import MidribError
@@ -32,7 +32,10 @@ def curves_of(
     options = dict(options)
     care = aftercare(options.pop("simplify", None), options.pop("smooth", False))
     construction = construction_of_collapse(**options)
-    for index, _, polygon in valid_parts(areas, Log(None, strict=False)):
+    parts = list(valid_parts(areas, Log(None, strict=False)))
+    if construction.holes == "ignored":
+        parts = filled_parts(parts)
+    for index, _, polygon in parts:
         interrupts.check()
         scale = degree_lengths(shapely.bounds(polygon)) if geographic else PLANE
         guide = None if along is None else along[index]

@@ -159,10 +159,11 @@ def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
 
 
 def path_of(area: Any) -> Any:
-    """Matplotlib path of an area with all its rings."""
+    """Matplotlib path of an area; holes turn the other way, or they would be filled."""
     from matplotlib.path import Path as Outline
 
-    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(area))]
+    parts = shapely.orient_polygons(shapely.get_parts(area))
+    rings = [shapely.get_coordinates(ring) for ring in shapely.get_rings(parts)]
     codes = [
         [Outline.MOVETO] + [Outline.LINETO] * (len(ring) - 2) + [Outline.CLOSEPOLY]
         for ring in rings

@@ -20,7 +20,7 @@ HALVINGS = 60  # more than the bits of a number from 0 to 1
 PARTS = 4  # rows of a table for polynomials: before them whatever the caller keeps there
 
 
-@njit()
+@njit(borrows=True)
 def roots_inside(
     work: Floats, i: int, degree: int, start: float, stop: float, into: int, count: int
 ) -> int:
@@ -62,7 +62,7 @@ def roots_inside(
     return count
 
 
-@njit()
+@njit(borrows=True)
 def roots_of_quadratic(
     work: Floats, i: int, start: float, stop: float, into: int, count: int
 ) -> int:

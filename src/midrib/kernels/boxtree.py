@@ -23,7 +23,7 @@ LEAF = 4
 DEPTH = 128  # more than twice the height of any tree that fits into memory
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_share(
     px: float,
     py: float,
@@ -61,10 +61,10 @@ def box_tree(x: Floats, y: Floats) -> Floats:
     while leaves * LEAF < m:
         leaves *= 2
     boxes = np.empty((2 * leaves, 4))
-    boxes[:, 0] = boxes[:, 1] = np.inf
-    boxes[:, 2] = boxes[:, 3] = -np.inf
     for i in range(leaves):
         node = leaves + i
+        boxes[node, 0] = boxes[node, 1] = np.inf
+        boxes[node, 2] = boxes[node, 3] = -np.inf
         if i * LEAF >= m:
             continue
         for v in range(i * LEAF, min((i + 1) * LEAF, m) + 1):
@@ -77,7 +77,7 @@ def box_tree(x: Floats, y: Floats) -> Floats:
     return boxes
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> float:
     """Squared distance from p to a node's box, inf for an empty one."""
     dx = max(boxes[node, 0] - px, px - boxes[node, 2], 0.0)
@@ -85,7 +85,7 @@ def squared_distance_to_box(px: float, py: float, boxes: Floats, node: int) -> f
     return dx * dx + dy * dy
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_on_chain(
     px: float,
     py: float,

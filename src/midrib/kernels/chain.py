@@ -18,7 +18,10 @@ TIE_OF_COORDINATE = 2.0**-50
 
 
 class Chain(NamedTuple):
-    """One curve: m + 1 mesh vertices, the m boundary sides between them, and arc lengths."""
+    """One curve: m + 1 mesh vertices, the m boundary sides between them, and arc lengths.
+
+    A side of -1 is a bridge to another loop of the boundary, without length; see ``channels``.
+    """
 
     vertex: Ints
     side: Ints
@@ -55,7 +58,8 @@ def goal_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Goal:
         place[v] = i
         x[i], y[i] = mesh.x[v] * scale_x, mesh.y[v] * scale_y
     for i in range(n - 1):
-        segment[chain.side[i]] = i
+        if chain.side[i] >= 0:
+            segment[chain.side[i]] = i
     largest = 0.0
     for v in range(mesh.x.size):
         largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
@@ -63,7 +67,7 @@ def goal_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Goal:
     return Goal(segment, place, chain, x, y, box_tree(x, y), scale_x, scale_y, tie)
 
 
-@njit()
+@njit(borrows=True)
 def slack_of(tie: float, radius: float) -> float:
     """By how much radii of about this size may differ and still be a tie."""
     return max(tie, TIE_OF_RADIUS * radius)

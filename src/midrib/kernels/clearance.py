@@ -10,7 +10,7 @@ from midrib.kernels.boxtree import DEPTH, LEAF, box_tree, nearest_share, squared
 from midrib.kernels.jit import njit
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["clearances", "nearest_of"]
+__all__ = ["clearances", "nearest_in_run", "nearest_of"]
 
 
 @njit(entry=True)
@@ -44,7 +44,7 @@ def clearances(
     return result
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_of(
     px: float,
     py: float,
@@ -84,10 +84,30 @@ def nearest_of(
         for j in range(first, min(first + LEAF, bx.size - 1)):
             if not goes_on[j]:
                 continue
-            share, _ = nearest_share(px, py, bx[j], by[j], bx[j + 1], by[j + 1], 0.0, 1.0, 0, 0)
-            dx = bx[j] + share * (bx[j + 1] - bx[j]) - px
-            dy = by[j] + share * (by[j + 1] - by[j]) - py
-            squared = dx * dx + dy * dy
+            share, squared = nearest_on_segment(px, py, bx[j], by[j], bx[j + 1], by[j + 1])
             if squared < nearest:
                 nearest, segment, along = squared, j, share
     return segment, along, nearest
+
+
+@njit(inline=True, borrows=True)
+def nearest_in_run(
+    px: float, py: float, bx: Floats, by: Floats, first: int, stop: int
+) -> tuple[int, float, float]:
+    """Return ``nearest_of`` the segments first .. stop - 1 of a chain, all of which go on; O(n)."""
+    nearest, segment, along = np.inf, first, 0.0
+    for j in range(first, stop):
+        share, squared = nearest_on_segment(px, py, bx[j], by[j], bx[j + 1], by[j + 1])
+        if squared < nearest:
+            nearest, segment, along = squared, j, share
+    return segment, along, nearest
+
+
+@njit(inline=True, borrows=True)
+def nearest_on_segment(
+    px: float, py: float, ax: float, ay: float, bx: float, by: float
+) -> tuple[float, float]:
+    """Nearest point to p on the segment a b: share of it, squared distance."""
+    share, _ = nearest_share(px, py, ax, ay, bx, by, 0.0, 1.0, 0, 0)
+    dx, dy = ax + share * (bx - ax) - px, ay + share * (by - ay) - py
+    return share, dx * dx + dy * dy

@@ -65,7 +65,7 @@ def place_point(
     return split, longer_ints(order, k + 1, (split.x.size - 1,)), sides, height, k + 1
 
 
-@njit()
+@njit(borrows=True)
 def middle_of_cap(
     mesh: Mesh, order: Ints, place: int, other: int, scale_x: float, scale_y: float
 ) -> tuple[int, float]:
@@ -112,7 +112,7 @@ def chain(
     return Chain(vertex, sides, arc)
 
 
-@njit()
+@njit(borrows=True)
 def doubled_area(mesh: Mesh, main: Ints, auxiliary: Ints, scale_x: float, scale_y: float) -> float:
     """Twice the area between two chains that run alongside."""
     total = 0.0

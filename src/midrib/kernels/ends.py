@@ -21,7 +21,16 @@ from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
-__all__ = ["CAP", "POINT", "TIP", "far_pair", "propose_ends", "shape_of_end"]
+__all__ = [
+    "CAP",
+    "POINT",
+    "TIP",
+    "far_pair",
+    "mean_width",
+    "propose_ends",
+    "shape_of_end",
+    "shorter_bank",
+]
 
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
@@ -32,17 +41,17 @@ LEVELLINGS = 8
 LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
 
 
-@njit()
+@njit(borrows=True)
 def middle_of(mesh: Mesh, e: int) -> tuple[float, float]:
     """Middle of a side."""
     a, b = mesh.tri[e], mesh.tri[next_side(e)]
     return (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
 
 
-@njit()
+@njit(borrows=True)
 def sweep(
     mesh: Mesh,
-    n_shell: int,
+    order: Ints,
     source: int,
     scale_x: float,
     scale_y: float,
@@ -52,7 +61,7 @@ def sweep(
     way: Floats,
     frontier: Ints,
 ) -> int:
-    """Return the shell vertex with the longest way from ``source``.
+    """Return the vertex of ``order`` with the longest way from ``source``.
 
     A way goes from middle of side to middle of side, or along vertices where that is shorter: the
     middles alone would go into a long side's triangle and back to reach a vertex next to it.
@@ -105,7 +114,7 @@ def sweep(
             frontier[size] = side
             size = size + 1 if is_tree else push(frontier, cost, size, side)
     farthest = source
-    for v in range(n_shell):
+    for v in order:
         if way[v] > way[farthest] and way[v] < np.inf:
             farthest = v
     return farthest
@@ -113,9 +122,9 @@ def sweep(
 
 @njit()
 def far_pair(
-    mesh: Mesh, n_shell: int, source: int, scale_x: float, scale_y: float, is_tree: bool
+    mesh: Mesh, order: Ints, source: int, scale_x: float, scale_y: float, is_tree: bool
 ) -> Ints:
-    """Two shell vertices (mesh vertices below ``n_shell``) with the longest way between them.
+    """Two vertices of ``order``, the shell's, with the longest way between them.
 
     One of them is ``source``, unless that is -1: then it is the farthest vertex from anywhere, and
     the other is the farthest from that: exact on a tree, a good guess with holes. O(n) without
@@ -127,12 +136,14 @@ def far_pair(
     pair = np.empty(2, np.intp)
     pair[0] = source
     if source < 0:
-        pair[0] = sweep(mesh, n_shell, 0, scale_x, scale_y, is_tree, entered, cost, way, frontier)
-    pair[1] = sweep(mesh, n_shell, pair[0], scale_x, scale_y, is_tree, entered, cost, way, frontier)
+        pair[0] = sweep(
+            mesh, order, order[0], scale_x, scale_y, is_tree, entered, cost, way, frontier
+        )
+    pair[1] = sweep(mesh, order, pair[0], scale_x, scale_y, is_tree, entered, cost, way, frontier)
     return pair
 
 
-@njit()
+@njit(borrows=True)
 def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float, int, float]:
     """Return the point of a closed ring at arc length s, its segment and the share of it.
 
@@ -154,7 +165,7 @@ def point_at(x: Floats, y: Floats, arc: Floats, s: float) -> tuple[float, float,
     return x[k] + share * (x[j] - x[k]), y[k] + share * (y[j] - y[k]), k, share
 
 
-@njit()
+@njit(borrows=True)
 def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
     """Return the last vertex of the straight run from vertex ``start`` in direction ``step``."""
     n = x.size
@@ -171,7 +182,7 @@ def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
         end = beyond
 
 
-@njit()
+@njit(borrows=True)
 def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
@@ -196,7 +207,7 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     return corner_p and corner_q and outward_p and outward_q
 
 
-@njit()
+@njit(borrows=True)
 def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tuple[int, int]:
     """Return the corners of the cap at a vertex, -1 if there is none.
 
@@ -228,7 +239,7 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
     return cap_p, cap_q
 
 
-@njit()
+@njit(borrows=True)
 def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     """Shift the arc length s until the points one arm before and after it are level.
 
@@ -251,7 +262,7 @@ def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     return s
 
 
-@njit()
+@njit(borrows=True)
 def shape_of_end(
     x: Floats, y: Floats, arc: Floats, vertex: int, width: float
 ) -> tuple[int, int, int, float]:
@@ -286,7 +297,7 @@ def shape_of_end(
     return POINT, k, k, share
 
 
-@njit()
+@njit(borrows=True)
 def mean_width(x: Floats, y: Floats, arc: Floats) -> float:
     """Width of the rectangle with a shell's area and perimeter, or of the square with its area."""
     doubled = 0.0
@@ -324,7 +335,6 @@ def shorter_bank(arc: Floats, places: Ints, shares: Floats) -> float:
 def propose_ends(
     mesh: Mesh,
     order: Ints,
-    n_shell: int,
     source: int,
     is_tree: bool,
     scale_x: float,
@@ -335,8 +345,7 @@ def propose_ends(
     Parameters
     ----------
     mesh : the area
-    order : (n,) shell vertices in order
-    n_shell : mesh vertices below it are the shell's
+    order : (n,) shell vertices in order, each once
     source : a mesh vertex to keep as the first end, or -1
     is_tree : whether the area has no holes
     scale_x, scale_y : lengths of one unit of x and of y
@@ -354,7 +363,7 @@ def propose_ends(
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         arc[i + 1] = arc[i] + length(x[j] - x[i], y[j] - y[i])
-    pair = far_pair(mesh, n_shell, source, scale_x, scale_y, is_tree)
+    pair = far_pair(mesh, order, source, scale_x, scale_y, is_tree)
     a, b = pair[0], pair[1]
     a_is_right = mesh.x[a] > mesh.x[b] or (mesh.x[a] == mesh.x[b] and mesh.y[a] > mesh.y[b])
     if source < 0 and a_is_right:
@@ -365,7 +374,7 @@ def propose_ends(
     for i in range(2):
         far[i, 0] = far[i, 1] = shaped[i, 0] = shaped[i, 1] = place_of[pair[i]]
         if source < 0 or i == 1:
-            kind, p, q, share = shape_of_end(x, y, arc, pair[i], width)
+            kind, p, q, share = shape_of_end(x, y, arc, place_of[pair[i]], width)
             shaped[i, 0], shaped[i, 1] = p, q
             shares[i] = share if kind == POINT else 0.0
     # Where the shapes of both leave hardly a bank between them, one of them is only its vertex.

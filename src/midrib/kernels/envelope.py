@@ -73,7 +73,7 @@ def new_motions(base: int) -> Motions:
     )
 
 
-@njit()
+@njit(borrows=True)
 def has_room(base: int, count: int) -> bool:
     """Whether tables are large enough to lower so many pieces by another motion."""
     return (MOST_TIES + 4) * (count + 1) <= base
@@ -82,7 +82,7 @@ def has_room(base: int, count: int) -> bool:
 # -- one moving point ------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def place_at(row: Floats, k: int, t: float) -> float:
     """Where a moving point is on its side: 0 at u, 1 at v."""
     n = row[k, 2] + t * (row[k, 3] - row[k, 2])
@@ -90,7 +90,7 @@ def place_at(row: Floats, k: int, t: float) -> float:
     return min(max(n / m, 0.0), 1.0)
 
 
-@njit()
+@njit(borrows=True)
 def vectors_of(walk: Walk, row: Floats, k: int, a: float, b: float, out: Floats, i: int) -> bool:
     """Write Bernstein coefficients of m (P - u) - n (v - u) from a to b, and of m, as row i.
 
@@ -117,7 +117,7 @@ def vectors_of(walk: Walk, row: Floats, k: int, a: float, b: float, out: Floats,
     return False
 
 
-@njit()
+@njit(borrows=True)
 def as_quadratic(w: Floats, i: int) -> None:
     """Raise the vectors of a plain point to those of one with m = 1."""
     w[i, 4], w[i, 5] = w[i, 2], w[i, 3]
@@ -125,7 +125,7 @@ def as_quadratic(w: Floats, i: int) -> None:
     w[i, 6] = w[i, 7] = 1.0
 
 
-@njit()
+@njit(borrows=True)
 def squared_distance(walk: Walk, row: Floats, k: int, t: float) -> float:
     """Squared distance from P to a moving point."""
     share = place_at(row, k, t)
@@ -134,7 +134,7 @@ def squared_distance(walk: Walk, row: Floats, k: int, t: float) -> float:
     return ex * ex + ey * ey
 
 
-@njit()
+@njit(borrows=True)
 def bound_distance(walk: Walk, row: Floats, k: int) -> float:
     """Bound of the squared distance over the whole piece; it is reached unless the point grazes."""
     if row[k, 4] == 1.0 and row[k, 5] == 1.0:  # convex in t
@@ -150,7 +150,7 @@ def bound_distance(walk: Walk, row: Floats, k: int) -> float:
     return most
 
 
-@njit()
+@njit(borrows=True)
 def is_idle(walk: Walk, row: Floats, work: Floats, count: int, k: int) -> bool:
     """Whether a motion is nowhere nearer than the envelope's farthest piece beside it.
 
@@ -171,7 +171,7 @@ def is_idle(walk: Walk, row: Floats, work: Floats, count: int, k: int) -> bool:
 # -- two of them -----------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def is_same_motion(row: Floats, at: Ints, i: int, other: Floats, other_at: Ints, j: int) -> bool:
     """Whether two pieces are parts of one motion."""
     kind = at[i, KIND]
@@ -184,7 +184,7 @@ def is_same_motion(row: Floats, at: Ints, i: int, other: Floats, other_at: Ints,
     return kind in (FOOT, GRAZE) or (row[i, 2] == other[j, 2] and row[i, 3] == other[j, 3])
 
 
-@njit()
+@njit(borrows=True)
 def always_nearer(at: Ints, i: int, j: int) -> bool:
     """Whether i is nearer than j without computing: a foot, and any point of the same side.
 
@@ -197,7 +197,7 @@ def always_nearer(at: Ints, i: int, j: int) -> bool:
     return at[i, SIDE] == at[j, SIDE]
 
 
-@njit()
+@njit(borrows=True)
 def ties_between(walk: Walk, row: Floats, work: Floats, i: int, j: int, a: float, b: float) -> int:
     """Write the t from a to b at which two motions tie as row 3 of ``work``; their number."""
     is_plain = vectors_of(walk, row, i, a, b, work, 0)
@@ -225,7 +225,7 @@ def ties_between(walk: Walk, row: Floats, work: Floats, i: int, j: int, a: float
     return roots_inside(work, 2, degree, a, b, 3, 0)
 
 
-@njit()
+@njit(borrows=True)
 def add_product(w: Floats, i: int, m_a: float, m_b: float, sign: float) -> None:
     """Add the square of a quadratic vector times the square of a linear m to the polynomial."""
     s0 = w[i, 0] * w[i, 0] + w[i, 1] * w[i, 1]
@@ -247,7 +247,7 @@ def add_product(w: Floats, i: int, m_a: float, m_b: float, sign: float) -> None:
 # -- all of them -----------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def farthest_between(row: Floats, count: int, a: float, b: float) -> float:
     """Bound of the envelope's squared distance from a to b, inf where it has no piece."""
     reached, most = a, 0.0
@@ -260,7 +260,7 @@ def farthest_between(row: Floats, count: int, a: float, b: float) -> float:
     return most if reached >= b else np.inf
 
 
-@njit()
+@njit(borrows=True)
 def put(
     walk: Walk, row: Floats, at: Ints, base: int, count: int, a: float, b: float, k: int
 ) -> int:
@@ -281,7 +281,7 @@ def put(
     return count + 1
 
 
-@njit()
+@njit(borrows=True)
 def lower_by(walk: Walk, row: Floats, at: Ints, work: Floats, base: int, count: int, i: int) -> int:
     """Lower the envelope by motion i from where it begins to where it ends; the new count."""
     low, high, total = row[i, 0], row[i, 1], base
@@ -307,7 +307,7 @@ def lower_by(walk: Walk, row: Floats, at: Ints, work: Floats, base: int, count: 
     return total - base
 
 
-@njit()
+@njit(borrows=True)
 def put_nearer(
     walk: Walk,
     row: Floats,

@@ -122,13 +122,13 @@ def is_long_enough(p: Floats, q: Floats, leash: float) -> bool:
     return stop == m and high[m - 1] >= 1.0
 
 
-@njit()
+@njit(borrows=True)
 def is_free(p: Floats, i: int, q: Floats, j: int, leash: float) -> bool:
     """Whether two vertices are within the leash."""
     return length(p[i, 0] - q[j, 0], p[i, 1] - q[j, 1]) <= leash
 
 
-@njit()
+@njit(borrows=True)
 def free_part(p: Floats, a: Floats, b: Floats, leash: float) -> tuple[float, float]:
     """From where to where on the segment a b (0 at a, 1 at b) p is within the leash.
 

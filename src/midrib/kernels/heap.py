@@ -6,7 +6,7 @@ from midrib.types import Floats, Ints
 __all__ = ["pop", "push"]
 
 
-@njit()
+@njit(borrows=True)
 def push(heap: Ints, key: Floats, size: int, item: int) -> int:
     """Put an item on a heap of ``size`` items; return the new size."""
     place = size
@@ -20,7 +20,7 @@ def push(heap: Ints, key: Floats, size: int, item: int) -> int:
     return size + 1
 
 
-@njit()
+@njit(borrows=True)
 def pop(heap: Ints, key: Floats, size: int) -> int:
     """Take the item with the smallest key off a heap of ``size`` items; it has one less then."""
     top, item = heap[0], heap[size - 1]

@@ -10,6 +10,9 @@ island and the bank on the other side: the island is part of the bank that it li
     main      --------------------
 
 A hole that touches a curve goes with it.
+
+Where an island is nearer to the middle of a cap than the curves are, the channel there runs along
+the cap, and each half of the cap goes with the curve that it meets.
 """
 
 from typing import NamedTuple
@@ -19,12 +22,14 @@ import numpy as np
 from midrib.kernels.boxtree import DEPTH, LEAF, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side
+from midrib.kernels.visibility import squared_distance_to_side
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Loops", "has_islands", "loops_of"]
+__all__ = ["Loops", "distance_to_side", "has_islands", "loops_of", "no_loops", "side_length"]
 
 NOBODY, MAIN, AUXILIARY = 0, 1, 2
 INTO = 2.0**-10  # of a side: how far inside its corner an island is looked at
@@ -36,9 +41,19 @@ class Loops(NamedTuple):
     side: Ints
     start: Ints  # (k + 1,)
     is_main: Bools  # (k,) else it is the auxiliary curve's
+    wall: Floats  # (w, 4) pieces of caps along which a channel runs: from x, y to x, y
+    wall_is_main: Bools  # (w,)
+    wall_cap: Ints  # (w,) the cap that it is a piece of: 0 after the main curve, 1 before it
 
 
 @njit()
+def no_loops() -> Loops:
+    """Return those of an area without holes."""
+    none, nobody = np.empty(0, np.intp), np.empty(0, np.bool_)
+    return Loops(none, np.zeros(1, np.intp), nobody, np.empty((0, 4)), nobody, none)
+
+
+@njit(borrows=True)
 def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
     """Whether there is boundary besides the two curves and the caps between them."""
     sides = 0
@@ -57,7 +72,9 @@ def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
 
 
 @njit()
-def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
+def loops_of(
+    mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats, scale_x: float, scale_y: float
+) -> Loops:
     """Return the islands and touching holes of an area, by the bank that each goes with.
 
     O(n log n) for islands that are small against the area.
@@ -66,7 +83,8 @@ def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
     for e in main.side:
         owner[e] = MAIN
     for e in auxiliary.side:
-        owner[e] = AUXILIARY
+        if e >= 0:
+            owner[e] = AUXILIARY
     side, start = np.empty(mesh.tri.size, np.intp), np.zeros(mesh.tri.size, np.intp)
     is_main = np.empty(mesh.tri.size, np.bool_)
     count, loops = 0, 0
@@ -74,10 +92,18 @@ def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
     #    lies between the two curves is a cap.
     first = e = main.side[0]
     last = MAIN
+    cap, cap_start = np.empty(mesh.tri.size, np.intp), np.zeros(3, np.intp)
+    is_inner = mesh.twin < 0
+    caps = 0
     while True:
         e = next_boundary_side(mesh, e)
+        is_inner[e] = False
         if owner[e] > 0:
             if owner[e] != last:
+                caps, run = caps + 1, count - start[loops]
+                cap_start[caps] = cap_start[caps - 1] + run
+                for k in range(run):
+                    cap[cap_start[caps - 1] + k] = side[start[loops] + k]
                 count = start[loops]
             elif count > start[loops]:
                 is_main[loops], start[loops + 1] = last == MAIN, count
@@ -94,19 +120,89 @@ def loops_of(mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats) -> Loops:
     boxes = box_tree(ring_x, ring_y)
     is_long_in_x = bool(np.ptp(ring_x) >= np.ptp(ring_y))
     stack = np.empty(DEPTH, np.intp)
-    for e in range(mesh.tri.size):
-        if mesh.twin[e] >= 0 or owner[e] >= 0:
-            continue
-        f = e
-        while owner[f] < 0:
-            side[count], owner[f] = f, NOBODY
+    for v in range(mesh.x.size):  # in order along the area, so that boxes over runs are small
+        e = mesh.door[v]
+        while e >= 0:
+            f = e
+            while owner[f] < 0:
+                side[count], owner[f] = f, NOBODY
+                count += 1
+                f = next_boundary_side(mesh, f)
+            if count > start[loops]:
+                x, y = point_of_hole(mesh, side[start[loops] : count])
+                is_main[loops] = not is_around(x, y, ring_x, ring_y, boxes, is_long_in_x, stack)
+                loops += 1
+                start[loops] = count
+            e = mesh.other_door[e]
+    walls = walls_of_caps(mesh, cap, cap_start, is_inner, scale_x, scale_y)
+    return Loops(side[:count], start[: loops + 1], is_main[:loops], *walls)
+
+
+@njit()
+def walls_of_caps(
+    mesh: Mesh, cap: Ints, cap_start: Ints, is_inner: Bools, scale_x: float, scale_y: float
+) -> tuple[Floats, Bools, Ints]:
+    """Return the halves of the caps that islands face, in pieces, whose each is, and of which cap.
+
+    ``is_inner`` marks the sides of islands. ``cap`` holds the sides of the cap after the main
+    curve, seen along the boundary, and from ``cap_start[1]`` on those of the cap before it. Halves
+    are walls only if an island is nearer to the middle of the cap than the curves are.
+    """
+    most = cap_start[2] + 2
+    wall, is_main, of = np.empty((most, 4)), np.empty(most, np.bool_), np.empty(most, np.intp)
+    count = 0
+    for k in range(2):
+        half, so_far, before = 0.0, 0.0, count
+        for e in cap[cap_start[k] : cap_start[k + 1]]:
+            half += side_length(mesh, e, scale_x, scale_y) / 2.0
+        mx, my = 0.0, 0.0
+        for e in cap[cap_start[k] : cap_start[k + 1]]:
+            a, b = mesh.tri[e], mesh.tri[next_side(e)]
+            x0, y0, x1, y1 = mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b]
+            step = side_length(mesh, e, scale_x, scale_y)
+            if so_far < half <= so_far + step:
+                share = (half - so_far) / step
+                mx, my = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
+                wall[count, 0], wall[count, 1], wall[count, 2], wall[count, 3] = x0, y0, mx, my
+                is_main[count], of[count] = k == 0, k
+                count, x0, y0 = count + 1, mx, my
+                so_far = half
+            wall[count, 0], wall[count, 1], wall[count, 2], wall[count, 3] = x0, y0, x1, y1
+            is_main[count], of[count] = (k == 0) == (so_far < half), k
+            so_far += step
             count += 1
-            f = next_boundary_side(mesh, f)
-        x, y = point_of_hole(mesh, side[start[loops] : count])
-        is_main[loops] = not is_around(x, y, ring_x, ring_y, boxes, is_long_in_x, stack)
-        loops += 1
-        start[loops] = count
-    return Loops(side[:count], start[: loops + 1], is_main[:loops])
+        if not is_faced(mesh, is_inner, mx, my, half, scale_x, scale_y):
+            count = before
+    return wall[:count], is_main[:count], of[:count]
+
+
+@njit(borrows=True)
+def is_faced(
+    mesh: Mesh, is_inner: Bools, x: float, y: float, within: float, scale_x: float, scale_y: float
+) -> bool:
+    """Whether a marked side is nearer than so much to a point."""
+    for e in range(is_inner.size):
+        if is_inner[e] and distance_to_side(mesh, x, y, e, scale_x, scale_y) < within:
+            return True
+    return False
+
+
+@njit(borrows=True)
+def side_length(mesh: Mesh, e: int, scale_x: float, scale_y: float) -> float:
+    """Length of a side."""
+    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    return length((mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y)
+
+
+@njit(borrows=True)
+def distance_to_side(
+    mesh: Mesh, x: float, y: float, e: int, scale_x: float, scale_y: float
+) -> float:
+    """Distance of a point to a side."""
+    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    return np.sqrt(
+        squared_distance_to_side(x, y, mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], scale_x, scale_y)
+    )
 
 
 @njit()
@@ -114,7 +210,8 @@ def ring_beside(mesh: Mesh, path: Floats, auxiliary: Chain) -> tuple[Floats, Flo
     """Return the closed ring along the path and back along the auxiliary curve."""
     n, m = path.shape[0], auxiliary.vertex.size
     x, y = np.empty(n + m + 1), np.empty(n + m + 1)
-    x[:n], y[:n] = path[:, 0], path[:, 1]
+    for i in range(n):
+        x[i], y[i] = path[i, 0], path[i, 1]
     for i in range(m):
         v = auxiliary.vertex[m - 1 - i]
         x[n + i], y[n + i] = mesh.x[v], mesh.y[v]
@@ -122,7 +219,7 @@ def ring_beside(mesh: Mesh, path: Floats, auxiliary: Chain) -> tuple[Floats, Flo
     return x, y
 
 
-@njit()
+@njit(borrows=True)
 def point_of_hole(mesh: Mesh, side: Ints) -> tuple[float, float]:
     """Return a point of the hole that these sides bound, just inside its leftmost vertex."""
     n, at = side.size, 0

@@ -8,10 +8,10 @@ import numpy as np
 
 from midrib.kernels.chain import Chain
 from midrib.kernels.division import LONGER, Divided, divide_shell
-from midrib.kernels.ends import propose_ends
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import mesh_rings
 from midrib.kernels.rings import Rings
+from midrib.kernels.touches import propose_division
 from midrib.types import Floats
 
 __all__ = ["lay_out_rings"]
@@ -42,7 +42,11 @@ def lay_out_rings(rings: Rings, height: Floats, scale_x: float, scale_y: float) 
         none = Chain(np.empty(0, np.intp), np.empty(0, np.intp), np.empty(0))
         middle, at = np.empty((2, 3)), np.empty((2, 2), np.intp)
         return Divided(False, done.mesh, height, middle, at, none, none, 0.0)
-    order, side = done.vertex_of[:n], done.side_of_segment[:n]
-    is_tree = rings.x.size == n
-    places, shares = propose_ends(done.mesh, order, n, -1, is_tree, scale_x, scale_y)
-    return divide_shell(done.mesh, order, side, height, places, shares, LONGER, scale_x, scale_y)
+    found = propose_division(
+        done.mesh, done.vertex_of[:n], done.side_of_segment[:n], height, rings.x.size == n,
+        scale_x, scale_y,
+    )  # fmt: skip
+    return divide_shell(
+        found.mesh, found.order, found.side, found.height, found.places, found.shares, LONGER,
+        scale_x, scale_y,
+    )  # fmt: skip

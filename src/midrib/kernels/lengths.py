@@ -7,7 +7,7 @@ from midrib.kernels.jit import njit
 __all__ = ["length"]
 
 
-@njit()
+@njit(borrows=True)
 def length(dx: float, dy: float) -> float:
     """Length of a vector; several times quicker than ``hypot``, and as good short of overflow."""
     return np.sqrt(dx * dx + dy * dy)

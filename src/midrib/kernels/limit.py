@@ -25,7 +25,7 @@ from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.outlook import Scene, look_along, new_outlook, scene_of, walk_along
 from midrib.kernels.paths import triangle_towards, walk
-from midrib.kernels.tables import taller, taller_ints
+from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import squared_distance_to_side
 from midrib.kernels.windows import spot_at
@@ -145,7 +145,8 @@ def trace_pieces(
         # 2. Pieces that go on past a cut are one.
         found, found_at = outlook.motions.row, outlook.motions.at
         while total + count > row.shape[0]:
-            row, at = taller(row), taller_ints(at)
+            room = 2 * row.shape[0]
+            row, at = with_rows(row, room), with_rows(at, room)
         for j in range(count):
             last = total - 1
             is_next = total > 0 and at[last, AT_MAIN] == k and row[last, TO] == found[j, FROM]
@@ -174,7 +175,7 @@ def trace_pieces(
     return Pieces(row[:kept], at[:kept])
 
 
-@njit()
+@njit(borrows=True)
 def write_limits(given: Floats, start: float, stop: float, limit: Floats) -> None:
     """Write limits at the ends of a side that are those given at start and stop."""
     for i in (0, 2):
@@ -185,13 +186,13 @@ def write_limits(given: Floats, start: float, stop: float, limit: Floats) -> Non
 # -- points of the curve ---------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def station_of(main: Chain, k: int, t: float) -> float:
     """Arc length of P on a segment."""
     return main.arc[k + 1] if t == 1.0 else main.arc[k] + t * (main.arc[k + 1] - main.arc[k])
 
 
-@njit()
+@njit(borrows=True)
 def point_between(scene: Scene, a: int, b: int, t: float) -> tuple[float, float]:
     """Return the point at a share of the way from vertex a to vertex b."""
     if t == 1.0:
@@ -199,7 +200,7 @@ def point_between(scene: Scene, a: int, b: int, t: float) -> tuple[float, float]
     return scene.x[a] + t * (scene.x[b] - scene.x[a]), scene.y[a] + t * (scene.y[b] - scene.y[a])
 
 
-@njit()
+@njit(borrows=True)
 def foot_of(scene: Scene, main: Chain, k: int, t: float) -> tuple[float, float, int]:
     """P, and the mesh vertex that it is or -1."""
     a, b = main.vertex[k], main.vertex[k + 1]
@@ -207,7 +208,7 @@ def foot_of(scene: Scene, main: Chain, k: int, t: float) -> tuple[float, float, 
     return x, y, a if t == 0.0 else b if t == 1.0 else -1
 
 
-@njit()
+@njit(borrows=True)
 def end_of(scene: Scene, pieces: Pieces, j: int, t: float) -> tuple[float, float, float]:
     """Q, and its share of its side."""
     e = pieces.at[j, AT_SIDE]
@@ -216,7 +217,7 @@ def end_of(scene: Scene, pieces: Pieces, j: int, t: float) -> tuple[float, float
     return x, y, share
 
 
-@njit()
+@njit(borrows=True)
 def middle_of(scene: Scene, main: Chain, pieces: Pieces, j: int, t: float) -> tuple[float, float]:
     """S, in lengths."""
     px, py, _ = foot_of(scene, main, pieces.at[j, AT_MAIN], t)
@@ -224,7 +225,7 @@ def middle_of(scene: Scene, main: Chain, pieces: Pieces, j: int, t: float) -> tu
     return (px + qx) / 2.0 * scene.scale_x, (py + qy) / 2.0 * scene.scale_y
 
 
-@njit()
+@njit(borrows=True)
 def control_of(
     scene: Scene, main: Chain, pieces: Pieces, j: int, t: float, u: float
 ) -> tuple[float, float, float]:
@@ -286,7 +287,7 @@ def tie_knots(mesh: Mesh, scene: Scene, main: Chain, pieces: Pieces, finds_ways:
     return Knots(x[:count], y[:count], t[:count], piece[:count], is_control[:count], breaks[:count])
 
 
-@njit()
+@njit(borrows=True)
 def is_gapless(main: Chain, pieces: Pieces, j: int) -> bool:
     """Whether piece j begins at the station where the one before has ended."""
     before = station_of(main, pieces.at[j - 1, AT_MAIN], pieces.row[j - 1, TO])
@@ -294,7 +295,7 @@ def is_gapless(main: Chain, pieces: Pieces, j: int) -> bool:
     return begins - before <= 2.0 * SLIVER * main.arc[-1]
 
 
-@njit()
+@njit(borrows=True)
 def meets(scene: Scene, main: Chain, pieces: Pieces, j: int) -> bool:
     """Whether piece j begins in the point in which the one before has ended."""
     if not is_gapless(main, pieces, j):
@@ -307,7 +308,7 @@ def meets(scene: Scene, main: Chain, pieces: Pieces, j: int) -> bool:
     return off <= slack_of(scene.tie, radius)
 
 
-@njit()
+@njit(borrows=True)
 def is_free(
     mesh: Mesh,
     scene: Scene,
@@ -368,7 +369,7 @@ def needed_knots(
             ):
                 continue
             if depth + 3 > stack.shape[0]:
-                stack = taller_ints(stack)
+                stack = with_rows(stack, 2 * stack.shape[0])
             for begin, end in ((a, first), (first, last), (last, b)):
                 if begin < end:
                     stack[depth, 0], stack[depth, 1] = begin, end
@@ -376,7 +377,7 @@ def needed_knots(
     return kept
 
 
-@njit()
+@njit(borrows=True)
 def farthest_knots(knots: Knots, a: int, b: int) -> tuple[int, int, float]:
     """First and last of the knots between a and b farthest from the way between, and how far.
 
@@ -446,12 +447,13 @@ def radii_at(
             is_last = depth == 0
             row_piece, row_t = (knots.piece[i], knots.t[i]) if is_last else (j, t)
             if total == at.shape[0]:
-                points, at = taller(points), taller_ints(at)
+                room = 2 * points.shape[0]
+                points, at = with_rows(points, room), with_rows(at, room)
             write_radius(scene, main, pieces, row_piece, row_t, points[total], at[total])
             seen = station_of(main, pieces.at[row_piece, AT_MAIN], row_t)
             if n == 0 or stations[n - 1] != seen or at[total - 1, 0] != n - 1 or total == 0:
                 if n + 4 > stations.size:
-                    stations = with_more(stations)
+                    stations = with_places(stations, 2 * stations.size)
                 stations[n] = seen
                 n += 1
             at[total, 0] = n - 1
@@ -462,22 +464,14 @@ def radii_at(
     return Limit(points[:total], at[:total], stations[:n])
 
 
-@njit()
-def with_more(array: Floats) -> Floats:
-    """Copy twice as long."""
-    longer = np.empty(2 * array.size)
-    longer[: array.size] = array
-    return longer
-
-
-@njit()
+@njit(borrows=True)
 def add_gap(stations: Floats, n: int, start: float, stop: float) -> int:
     """Append the ends of a gap to the stations; the new number of them."""
     stations[n], stations[n + 1] = start, stop
     return n + 2
 
 
-@njit()
+@njit(borrows=True)
 def is_off(
     scene: Scene,
     main: Chain,
@@ -495,7 +489,7 @@ def is_off(
     return share * off > within
 
 
-@njit()
+@njit(borrows=True)
 def write_radius(
     scene: Scene,
     main: Chain,

@@ -19,7 +19,7 @@ from midrib.types import Floats, Ints
 __all__ = ["cut_loops"]
 
 
-@njit()
+@njit(borrows=True)
 def meet(path: Floats, i: int, j: int) -> bool:
     """Whether segments i < j have a point in common; if they are neighbours, more than one."""
     ax, ay, bx, by = path[i, 0], path[i, 1], path[i + 1, 0], path[i + 1, 1]
@@ -77,7 +77,7 @@ def last_meetings(path: Floats) -> Ints:
     return last
 
 
-@njit()
+@njit(borrows=True)
 def meeting_point(path: Floats, i: int, j: int) -> tuple[float, float]:
     """Return a point that segments i and j have in common, up to rounding.
 
@@ -114,12 +114,9 @@ def cut_loops(path: Floats) -> tuple[Floats, Ints, int]:
     and the number of pairs of segments whose ranges overlap.
     """
     n = path.shape[0]
-    points, row = np.empty((2 * n, 2)), np.empty(2 * n, np.intp)
     if n < 3:
-        points[:n] = path
-        for i in range(n):
-            row[i] = i
-        return points[:n], row[:n], 0
+        return path, np.arange(n), 0
+    points, row = np.empty((2 * n, 2)), np.empty(2 * n, np.intp)
     last = last_meetings(path)
     count, loops, i = 0, 0, 0
     while i < n:

@@ -24,6 +24,7 @@ __all__ = [
     "Mesh",
     "Triangulated",
     "contains",
+    "doors",
     "is_beyond",
     "mesh_rings",
     "next_boundary_side",
@@ -56,7 +57,7 @@ class Triangulated(NamedTuple):
     touches: Ints
 
 
-@njit()
+@njit(borrows=True)
 def next_boundary_side(mesh: Mesh, e: int) -> int:
     """Return the boundary side that follows e around the inside: the other end of its fan."""
     e = next_side(e)
@@ -90,14 +91,14 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
     )
 
 
-@njit()
+@njit(borrows=True)
 def is_beyond(mesh: Mesh, e: int, px: float, py: float) -> bool:
     """Whether p lies beyond side e, seen from its triangle."""
     a, b = mesh.tri[e], mesh.tri[next_side(e)]
     return orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], px, py) < 0.0
 
 
-@njit()
+@njit(borrows=True)
 def contains(mesh: Mesh, t: int, px: float, py: float) -> bool:
     """Whether the closed triangle t holds p, exactly."""
     return not (
@@ -107,7 +108,7 @@ def contains(mesh: Mesh, t: int, px: float, py: float) -> bool:
     )
 
 
-@njit()
+@njit(borrows=True)
 def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float, bool]:
     """Return p, or a point next to it that is exactly inside triangle t, and whether there is one.
 

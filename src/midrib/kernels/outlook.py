@@ -117,7 +117,7 @@ def new_outlook(windows: int, pieces: int) -> Outlook:
     )
 
 
-@njit()
+@njit(borrows=True)
 def look_along(
     scene: Scene,
     walk: Walk,
@@ -191,7 +191,7 @@ def look_along(
     return count
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def add_window(
     window: Ints, span: Floats, depth: int, e: int, right: int, left: int, a: float, b: float
 ) -> int:
@@ -201,26 +201,26 @@ def add_window(
     return depth + 1
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def turn(x: Floats, y: Floats, p: int, v: int, w: int) -> float:
     """How far w is to the left of the ray from p by v; linear in p."""
     return orient(x[p], y[p], x[v], y[v], x[w], y[w])
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def value_at(at_a: float, at_b: float, t: float) -> float:
     """Value of a linear function; its sign is that of its ends where they agree."""
     return (1.0 - t) * at_a + t * at_b
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def root_of(at_a: float, at_b: float) -> float:
     """Where a linear function is zero, or 0 if it does not change its sign."""
     changes = (at_a > 0.0 and at_b < 0.0) or (at_a < 0.0 and at_b > 0.0)
     return at_a / (at_a - at_b) if changes else 0.0
 
 
-@njit()
+@njit(borrows=True)
 def part(
     x: Floats,
     y: Floats,
@@ -266,7 +266,7 @@ def part(
 # -- offers ----------------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def cut_off(x: Floats, y: Floats, a: int, b: int, ray: int, end: int, t: float) -> float:
     """How far the ray by a vertex passes an end of a side on the left; 0 where it is the end."""
     if ray == end:
@@ -274,7 +274,7 @@ def cut_off(x: Floats, y: Floats, a: int, b: int, ray: int, end: int, t: float) 
     return value_at(turn(x, y, a, ray, end), turn(x, y, b, ray, end), t)
 
 
-@njit()
+@njit(borrows=True)
 def write_graze(
     x: Floats, y: Floats, a: int, b: int, ray: int, u: int, v: int, share: Floats, i: int
 ) -> None:
@@ -290,20 +290,20 @@ def write_graze(
     share[i, 2], share[i, 3] = m_a / unit, m_b / unit
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def write_linear(share: Floats, i: int, at_a: float, at_b: float) -> None:
     """Write a share that is linear in t."""
     share[i, 0], share[i, 1], share[i, 2], share[i, 3] = at_a, at_b, 1.0, 1.0
 
 
-@njit()
+@njit(borrows=True)
 def share_at(share: Floats, i: int, t: float) -> float:
     """Share at t."""
     n = share[i, 0] + t * (share[i, 1] - share[i, 0])
     return n / (share[i, 2] + t * (share[i, 3] - share[i, 2]))
 
 
-@njit()
+@njit(borrows=True)
 def cut_by_order(share: Floats, work: Floats, used: int, low: float, high: float) -> int:
     """Write the t at which two of the shares in use are equal as row 3, in order; their number."""
     count = 0
@@ -329,7 +329,7 @@ def cut_by_order(share: Floats, work: Floats, used: int, low: float, high: float
     return count
 
 
-@njit()
+@njit(borrows=True)
 def offer_side(
     x: Floats,
     y: Floats,
@@ -407,7 +407,7 @@ def offer_side(
     return offers
 
 
-@njit()
+@njit(borrows=True)
 def write_limits(scene: Scene, e: int, u: int, limit: Floats, share: Floats) -> None:
     """Write where the least and the greatest arc length that counts are on a side."""
     j = scene.segment[e]
@@ -421,7 +421,7 @@ def write_limits(scene: Scene, e: int, u: int, limit: Floats, share: Floats) -> 
         share[LOW, 2 + i] = share[HIGH, 2 + i] = 1.0
 
 
-@njit()
+@njit(borrows=True)
 def offer_ends(
     scene: Scene,
     walk: Walk,

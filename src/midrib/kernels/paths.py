@@ -24,6 +24,7 @@ from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import ROUNDING_REACH, Mesh, contains, is_beyond, pull_inside
 from midrib.kernels.predicates import orient
+from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
@@ -68,7 +69,7 @@ def new_search(mesh: Mesh, scale_x: float, scale_y: float) -> Search:
     return Search(scale_x, scale_y, entered, np.empty(m), np.empty(m), np.empty(m, np.intp))
 
 
-@njit()
+@njit(borrows=True)
 def walk(
     mesh: Mesh, t: int, goal: int, px: float, py: float, qx: float, qy: float
 ) -> tuple[int, int]:
@@ -150,9 +151,7 @@ def find_sleeve(
         t = mesh.twin[e] // 3
         entered[t] = e
         if n_touched == touched.size:
-            larger = np.empty(2 * n_touched, np.intp)
-            larger[:n_touched] = touched
-            touched = larger
+            touched = with_places(touched, 2 * n_touched)
         touched[n_touched] = t
         n_touched += 1
         a, b = mesh.tri[e], mesh.tri[next_side(e)]
@@ -229,7 +228,7 @@ def pull_tight(mesh: Mesh, sleeve: Ints, px: float, py: float, qx: float, qy: fl
     return turns[:count]
 
 
-@njit()
+@njit(borrows=True)
 def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
     """Return the triangle around vertex v through which the ray from v to q leaves; -1 if none."""
     x, y = mesh.x[v], mesh.y[v]
@@ -249,7 +248,7 @@ def triangle_towards(mesh: Mesh, v: int, qx: float, qy: float) -> int:
     return -1
 
 
-@njit()
+@njit(borrows=True)
 def nearest_triangle(mesh: Mesh, qx: float, qy: float) -> tuple[int, float, float]:
     """Return the triangle that q, outside by rounding, has to move least into.
 
@@ -372,9 +371,7 @@ def join_points(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> tup
                 turns = pull_tight(mesh, sleeve, from_x, from_y, qx, qy)
         if count + turns.size + 1 > source.size:
             room = 2 * (count + turns.size + 1)
-            larger_path, larger_source = np.empty((room, 2)), np.empty(room, np.intp)
-            larger_path[:count], larger_source[:count] = path[:count], source[:count]
-            path, source = larger_path, larger_source
+            path, source = with_rows(path, room), with_places(source, room)
         for v in turns:
             if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
                 path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v

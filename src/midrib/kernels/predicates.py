@@ -25,7 +25,7 @@ CIRCLE_BOUND = (10.0 + 96.0 * ROUNDING) * ROUNDING
 SPLITTER = 2.0**27 + 1.0
 
 
-@njit()
+@njit(borrows=True)
 def orient(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> float:
     """Twice the signed area of the triangle a b c; the sign is exact, the size is not."""
     left = (ax - cx) * (by - cy)
@@ -60,14 +60,14 @@ def orient_exactly(ax: float, ay: float, bx: float, by: float, cx: float, cy: fl
     return exact_sum_sign(terms)
 
 
-@njit()
+@njit(borrows=True)
 def difference_is_exact(a: float, b: float, difference: float) -> bool:
     """Whether ``difference``, the rounded a - b, is a - b itself."""
     b_virtual = a - difference
     return (a - (difference + b_virtual)) + (b_virtual - b) == 0.0
 
 
-@njit()
+@njit(borrows=True)
 def exact_product(a: float, b: float) -> tuple[float, float]:
     """Return a b as a rounded product and its rounding error."""
     product = a * b
@@ -100,7 +100,7 @@ def exact_sum_sign(terms: Floats) -> float:
     return 0.0
 
 
-@njit()
+@njit(borrows=True)
 def in_circle(
     ax: float, ay: float, bx: float, by: float, cx: float, cy: float, px: float, py: float
 ) -> float:

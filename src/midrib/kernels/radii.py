@@ -13,7 +13,8 @@ from midrib.kernels.chain import TIE_OF_RADIUS, Chain, Goal, goal_of, slack_of
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.visibility import View, keep_ties, look, new_view, sees, twice, twice_ints
+from midrib.kernels.tables import with_rows
+from midrib.kernels.visibility import View, keep_ties, look, new_view, sees
 from midrib.kernels.windows import spot_at
 from midrib.types import Bools, Floats, Ints
 
@@ -83,7 +84,7 @@ def draw_radii(
             seen = (seen + step) * (1.0 + TIE_OF_RADIUS) + goal.tie
             if low[i] > low[i - 1] or high[i] < high[i - 1]:
                 reach = np.inf
-        # 2. The nearest point at all is the answer if P sees it.
+        # 2. The nearest point at all is the answer if P sees it, and it is not on a bridge.
         j, share, kind, squared, is_tie = nearest_on_chain(
             spot.x * scale_x,
             spot.y * scale_y,
@@ -101,11 +102,12 @@ def draw_radii(
         if j < 0:
             continue
         if total == at.shape[0]:
-            found, at = twice(found), twice_ints(at)
+            room = 2 * found.shape[0]
+            found, at = with_rows(found, room), with_rows(at, room)
         a, b = vertex[j], vertex[j + 1]
         qx = mesh.x[b] if share == 1.0 else mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
         qy = mesh.y[b] if share == 1.0 else mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-        if not is_tie and sees(mesh, spot, side[j], qx, qy):
+        if not is_tie and side[j] >= 0 and sees(mesh, spot, side[j], qx, qy):
             at_vertex = a if share == 0.0 else b if share == 1.0 else -1
             at_arc = arc[j + 1] if share == 1.0 else arc[j] + share * (arc[j + 1] - arc[j])
             found[total, 2], found[total, 3], found[total, 4] = qx, qy, at_arc
@@ -119,7 +121,8 @@ def draw_radii(
             view, count = look(mesh, goal, spot, low[i], high[i], np.inf, view)
         count = keep_ties(goal.tie, view, count)
         while total + count > at.shape[0]:
-            found, at = twice(found), twice_ints(at)
+            room = 2 * found.shape[0]
+            found, at = with_rows(found, room), with_rows(at, room)
         for k in range(count):
             found[total, 2], found[total, 3] = view.near[k, 0], view.near[k, 1]
             found[total, 4], found[total, 5] = view.near[k, 2], np.sqrt(view.near[k, 3])
@@ -140,7 +143,7 @@ def draw_radii(
     return Drawn(found, at, is_lopsided)
 
 
-@njit()
+@njit(borrows=True)
 def find_lopsided(
     mesh: Mesh,
     goal: Goal,

@@ -32,7 +32,7 @@ class Rings(NamedTuple):
     n_shell: int
 
 
-@njit()
+@njit(borrows=True)
 def signed_area(x: Floats, y: Floats, rows: Ints) -> float:
     """Area of a ring, positive if it turns left; taken about its first vertex."""
     total = 0.0
@@ -71,20 +71,23 @@ def first_rows(x: Floats, y: Floats, offsets: Ints) -> Ints:
 
 @njit()
 def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
-    """Order of the rings: the shell, then the holes by their leftmost vertices."""
+    """Order of the rings: the shell, then the holes, along it by their leftmost vertices."""
     n = first.size
+    along, across = (x, y) if np.ptp(x) >= np.ptp(y) else (y, x)
     order, heap, key = np.zeros(n, np.intp), np.empty(n, np.intp), np.empty(n)
     size = 0
     for ring in range(1, n):
-        key[ring] = x[first[ring]]
+        key[ring] = along[first[ring]]
         size = push(heap, key, size, ring)
     for place in range(1, n):
         ring = pop(heap, key, size)
         size -= 1
-        # Of holes that start equally far left the lowest comes first.
+        # Of holes that start at the same place the lowest comes first, or the leftmost.
         at = place
         while (
-            at > 1 and key[order[at - 1]] == key[ring] and y[first[order[at - 1]]] > y[first[ring]]
+            at > 1
+            and key[order[at - 1]] == key[ring]
+            and across[first[order[at - 1]]] > across[first[ring]]
         ):
             order[at] = order[at - 1]
             at -= 1

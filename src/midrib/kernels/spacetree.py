@@ -81,7 +81,7 @@ def space_tree(chain: Floats) -> Floats:
     return boxes
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def squared_distance_to_node(p: Floats, boxes: Floats, node: int) -> float:
     """Squared distance from p to a node's box, inf for an empty one."""
     total = 0.0
@@ -91,7 +91,7 @@ def squared_distance_to_node(p: Floats, boxes: Floats, node: int) -> float:
     return total
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_on_segment(p: Floats, chain: Floats, j: int) -> tuple[float, float]:
     """Share of segment j at which its nearest point to p lies, and its squared distance."""
     along, length_squared = 0.0, 0.0
@@ -108,7 +108,7 @@ def nearest_on_segment(p: Floats, chain: Floats, j: int) -> tuple[float, float]:
     return share, total
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def on_segment(chain: Floats, j: int, share: float, k: int) -> float:
     """Coordinate k of a point of segment j; exactly that of a vertex at its ends."""
     if share == 1.0:
@@ -116,7 +116,7 @@ def on_segment(chain: Floats, j: int, share: float, k: int) -> float:
     return chain[j, k] + share * (chain[j + 1, k] - chain[j, k])
 
 
-@njit()
+@njit(borrows=True)
 def nearest_squared(p: Floats, chain: Floats, boxes: Floats, stack: Ints) -> float:
     """Squared distance from p to the nearest point of a chain, by descent into its tree."""
     m, leaves = chain.shape[0] - 1, boxes.shape[0] // 2

@@ -1,11 +1,37 @@
-"""Copies of small tables with room for more: what NumPy does too, but quicker to compile."""
+"""Copies of tables with room for more: what NumPy does too, but much quicker to compile.
+
+What can go wrong with ``a[:n] = b`` is put into words, and words are compiled along.
+"""
+
+from typing import TypeVar
 
 import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["longer", "longer_ints", "taller", "taller_ints"]
+__all__ = ["longer", "longer_ints", "with_places", "with_rows"]
+
+Array = TypeVar("Array", Floats, Ints)
+
+
+@njit()
+def with_rows(table: Array, rows: int) -> Array:
+    """Copy of a table of so many rows, those of the table first."""
+    larger = np.empty((rows, table.shape[1]), table.dtype)
+    for i in range(table.shape[0]):
+        for k in range(table.shape[1]):
+            larger[i, k] = table[i, k]
+    return larger
+
+
+@njit()
+def with_places(array: Array, places: int) -> Array:
+    """Copy of an array of so many places, those of the array first."""
+    larger = np.empty(places, array.dtype)
+    for i in range(array.size):
+        larger[i] = array[i]
+    return larger
 
 
 @njit()
@@ -28,26 +54,4 @@ def longer_ints(array: Ints, at: int, values: tuple[int, ...]) -> Ints:
         copy[i if i < at else i + m] = array[i]
     for i in range(m):
         copy[at + i] = values[i]
-    return copy
-
-
-@njit()
-def taller(table: Floats) -> Floats:
-    """Copy of a table of floats with twice as many rows."""
-    n, m = table.shape
-    copy = np.empty((2 * n, m))
-    for i in range(n):
-        for k in range(m):
-            copy[i, k] = table[i, k]
-    return copy
-
-
-@njit()
-def taller_ints(table: Ints) -> Ints:
-    """Copy of a table of integers with twice as many rows."""
-    n, m = table.shape
-    copy = np.empty((2 * n, m), np.intp)
-    for i in range(n):
-        for k in range(m):
-            copy[i, k] = table[i, k]
     return copy

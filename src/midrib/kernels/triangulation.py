@@ -26,6 +26,7 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import in_circle, orient
+from midrib.kernels.tables import with_places
 from midrib.types import Floats, Ints
 
 __all__ = ["triangulate_rings"]
@@ -35,19 +36,19 @@ REACH = 2.0**16  # the outer triangle lies so many extents away; it only has to 
 DELAUNAY_PASSES = 6  # over the edges that constraints disturbed: quality, not correctness
 
 
-@njit()
+@njit(borrows=True)
 def next_side(e: int) -> int:
     """Next half-edge of the same triangle, turning left."""
     return e - 2 if e % 3 == 2 else e + 1
 
 
-@njit()
+@njit(borrows=True)
 def previous_side(e: int) -> int:
     """Previous half-edge of the same triangle."""
     return e + 2 if e % 3 == 0 else e - 1
 
 
-@njit()
+@njit(borrows=True)
 def join(e: int, f: int, twin: Ints) -> None:
     """Make e and f two sides of one edge; f may be -1."""
     twin[e] = f
@@ -55,14 +56,14 @@ def join(e: int, f: int, twin: Ints) -> None:
         twin[f] = e
 
 
-@njit()
+@njit(borrows=True)
 def write_triangle(e: int, a: int, b: int, c: int, tri: Ints, out: Ints) -> None:
     """Write a b c at the three half-edges from e; remember a half-edge that leaves each."""
     tri[e], tri[e + 1], tri[e + 2] = a, b, c
     out[a], out[b], out[c] = e, e + 1, e + 2
 
 
-@njit()
+@njit(borrows=True)
 def flip(e: int, tri: Ints, twin: Ints, segment: Ints, out: Ints) -> None:
     """Replace the diagonal e = a-b by c-d; c ends at the last place of both triangles."""
     f = twin[e]
@@ -84,7 +85,7 @@ def flip(e: int, tri: Ints, twin: Ints, segment: Ints, out: Ints) -> None:
     segment[second], segment[second + 1], segment[second + 2] = on_db, on_bc, FREE
 
 
-@njit()
+@njit(borrows=True)
 def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: Ints) -> int:
     """Return a half-edge of the triangle that holds p: the side p lies on, or the first one.
 
@@ -118,7 +119,7 @@ def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: 
     return -1
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def should_flip(
     ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
 ) -> bool:
@@ -136,7 +137,7 @@ def should_flip(
     return 2.0 * new < old and is_convex(ax, ay, bx, by, cx, cy, dx, dy)
 
 
-@njit()
+@njit(borrows=True)
 def is_convex(
     ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
 ) -> bool:
@@ -144,7 +145,7 @@ def is_convex(
     return orient(ax, ay, dx, dy, cx, cy) > 0.0 and orient(dx, dy, bx, by, cx, cy) > 0.0
 
 
-@njit()
+@njit(borrows=True)
 def legalise(
     p: int,
     stack: Ints,
@@ -171,7 +172,7 @@ def legalise(
             size += 2
 
 
-@njit()
+@njit(borrows=True)
 def insert_vertex(
     p: int,
     near: int,
@@ -264,7 +265,7 @@ def insert_all(
     return count
 
 
-@njit()
+@njit(borrows=True)
 def side_around(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
     """Return the half-edge from a to b, found by turning around a, or -1."""
     start = out[a]
@@ -278,7 +279,7 @@ def side_around(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
     return -1
 
 
-@njit()
+@njit(borrows=True)
 def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
     """Return the half-edge from a to b, or -1.
 
@@ -291,7 +292,7 @@ def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
     return twin[f] if f >= 0 else -1
 
 
-@njit()
+@njit(borrows=True)
 def mark(e: int, k: int, twin: Ints, segment: Ints) -> bool:
     """Lay ring segment k on half-edge e; False if another segment lies there already."""
     if segment[e] != FREE:
@@ -301,7 +302,7 @@ def mark(e: int, k: int, twin: Ints, segment: Ints) -> bool:
     return True
 
 
-@njit()
+@njit(borrows=True)
 def first_crossing(
     a: int, b: int, x: Floats, y: Floats, tri: Ints, twin: Ints, out: Ints
 ) -> tuple[int, int]:
@@ -324,7 +325,7 @@ def first_crossing(
     return -1, -1
 
 
-@njit()
+@njit(borrows=True)
 def crossed_edges(
     a: int,
     b: int,
@@ -360,7 +361,7 @@ def crossed_edges(
     return count, -2
 
 
-@njit()
+@njit(borrows=True)
 def force_segment(
     a: int,
     b: int,
@@ -412,7 +413,7 @@ def force_segment(
     return -1
 
 
-@njit()
+@njit(borrows=True)
 def restore_delaunay(
     made: Ints,
     n_made: int,
@@ -555,8 +556,7 @@ def triangulate_rings(
     O(n log n) expected for rings of any shape.
     """
     n = x.size
-    all_x, all_y = np.empty(n + 3), np.empty(n + 3)
-    all_x[:n], all_y[:n] = x, y
+    all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
     middle_x, middle_y = (x.min() + x.max()) / 2.0, (y.min() + y.max()) / 2.0
     far = REACH * max(x.max() - x.min(), y.max() - y.min())
     all_x[n], all_y[n] = middle_x - 2.0 * far, middle_y - far

@@ -24,12 +24,15 @@ from midrib.kernels.banks import (
     lean_at,
     level_between,
     level_from,
+    look_between,
+    look_everywhere,
     way_to_level,
 )
 from midrib.kernels.chain import Chain
-from midrib.kernels.islands import Loops, has_islands, loops_of
+from midrib.kernels.islands import has_islands, loops_of, no_loops
 from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, join_beads, string_beads
+from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import (
@@ -41,11 +44,12 @@ from midrib.kernels.paths import (
     triangle_towards,
     walk,
 )
+from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
 from midrib.types import Floats, Ints
 
-__all__ = ["trace_trunk"]
+__all__ = ["APART", "SHARE_OF_SLACK", "Stops", "ends_of", "trace", "trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -70,6 +74,14 @@ class Ends(NamedTuple):
     y1: float
     off_1: float
     reach_1: float
+
+
+class Stops(NamedTuple):
+    """Points that the trunk goes by, in order."""
+
+    point: Floats  # (n, 2)
+    at: Ints  # the bead that each is, or -1 - (the triangle it is in)
+    nearest: Ints  # (n, 2) segments of the main and of the auxiliary bank
 
 
 @njit(entry=True)
@@ -107,7 +119,7 @@ def trace_trunk(
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
-    loops = Loops(np.empty(0, np.intp), np.zeros(1, np.intp), np.empty(0, np.bool_))
+    loops = no_loops()
     kept = beads_in_order(points[:, 4], first, n)
     path, source = beads.point[kept], kept
     if has_islands(mesh, main, auxiliary):
@@ -117,8 +129,9 @@ def trace_trunk(
         for k in range(source.size):
             if source[k] >= 0:
                 source[k] = kept[source[k]] if source[k] < kept.size else n
-        loops = loops_of(mesh, main, auxiliary, path)
+        loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
+    near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
     for i in range(points.shape[0]):
         x, y = level_between(
             banks,
@@ -129,9 +142,18 @@ def trace_trunk(
             0.5,
         )
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
-    stops = stops_on(mesh, banks, beads, path, source, scale_x, scale_y)
-    ends = ends_of(banks, beads, end.shape[0] > 0, apart, scale_x, scale_y)
+        near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
+    ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
+    stops = stops_on(mesh, banks, beads, near, path, source, scale_x, scale_y)
+    before = np.full((2, 2), np.nan)
+    if loops.wall_is_main.size > 0:
+        banks, point, stop_at, before = land(
+            mesh, main, auxiliary, banks, loops, beads, stops.point, stops.at, scale_x, scale_y
+        )
+        stops = Stops(point, stop_at, np.zeros((stop_at.size, 2), np.intp))  # no windows here
+        ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     path, source = trace(mesh, banks, beads, stops, ends, tolerance, apart, scale_x, scale_y)
+    path, source = take_off(path, source, beads, before)
     return cut_all_loops(mesh, beads, path, source, scale_x, scale_y)
 
 
@@ -173,24 +195,27 @@ def stops_on(
     mesh: Mesh,
     banks: Banks,
     beads: Beads,
+    near: Ints,
     path: Floats,
     source: Ints,
     scale_x: float,
     scale_y: float,
-) -> tuple[Floats, Ints]:
-    """Return the points that the trunk goes by, and for each its bead or -1 - (its triangle).
+) -> Stops:
+    """Return the points that the trunk goes by.
 
     Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
     passes islands on the side where the path does.
     """
     n, last = source.size, beads.side.size - 1
     point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
+    nearest = np.empty((n + 1, 2), np.intp)
     for k in range(n):
         if source[k] > last:
             continue
         if source[k] >= 0:
             point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
             at[count] = source[k]
+            nearest[count, 0], nearest[count, 1] = near[source[k], 0], near[source[k], 1]
             count += 1
         elif 0 < k < n - 1:
             t, x, y = opposite_turn(
@@ -199,15 +224,17 @@ def stops_on(
             )  # fmt: skip
             if t >= 0:
                 point[count, 0], point[count, 1], at[count] = x, y, -1 - t
+                nearest[count, 0], nearest[count, 1] = banks.last[0], banks.last[1]
                 count += 1
     if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
         point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
         at[count] = last
+        nearest[count, 0], nearest[count, 1] = near[last, 0], near[last, 1]
         count += 1
-    return point[:count], at[:count]
+    return Stops(point[:count], at[:count], nearest[:count])
 
 
-@njit()
+@njit(borrows=True)
 def opposite_turn(
     mesh: Mesh,
     banks: Banks,
@@ -262,7 +289,7 @@ def trace(
     mesh: Mesh,
     banks: Banks,
     beads: Beads,
-    stops: tuple[Floats, Ints],
+    stops: Stops,
     ends: Ends,
     tolerance: float,
     apart: float,
@@ -273,16 +300,16 @@ def trace(
 
     One past the beads for a point between.
     """
-    stop, stop_at = stops
     n = beads.side.size
     search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
     # Points still to be reached, the next one last: x, y; triangle, source, depth.
     goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
-    count, t = 0, -1
+    goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
+    count, t, none = 0, -1, np.empty(0, np.intp)
     px, py = 0.0, 0.0
-    for k in range(stop_at.size):
-        qx, qy, i = stop[k, 0], stop[k, 1], stop_at[k]
+    for k in range(stops.at.size):
+        qx, qy, i = stops.point[k, 0], stops.point[k, 1], stops.at[k]
         if i < 0:
             end, i = -1 - i, n
         else:
@@ -297,18 +324,20 @@ def trace(
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
+        goal_near[0, 0], goal_near[0, 1] = stops.nearest[k, 0], stops.nearest[k, 1]
         waiting = 1
         while waiting > 0:
             # 1. A point between, if the way to the next one is not good enough.
             top = waiting - 1
             qx, qy, depth = goal[top, 0], goal[top, 1], goal_at[top, 2]
-            turns = np.empty(0, np.intp)
+            turns = none
             if t >= 0:
                 end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
                 between = -1
                 mx, my = 0.0, 0.0
                 if obstacle == -1:
                     if depth < DEPTH:
+                        look_between(banks, p_near, goal_near[top])
                         at, mx, my = worst_probe(
                             banks,
                             ends,
@@ -327,6 +356,7 @@ def trace(
                     end = goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
                     turns = pull_tight(mesh, sleeve, px, py, qx, qy)
+                    look_everywhere(banks)
                     if depth < DEPTH and turns.size > 0:
                         between, mx, my = opposite_middle_turn(
                             mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
@@ -339,6 +369,7 @@ def trace(
                     goal[waiting, 0], goal[waiting, 1] = mx, my
                     goal_at[waiting, 0], goal_at[waiting, 1] = between, n
                     goal_at[waiting, 2] = depth + 1
+                    goal_near[waiting, 0], goal_near[waiting, 1] = banks.last[0], banks.last[1]
                     waiting += 1
                     continue
             else:
@@ -346,7 +377,8 @@ def trace(
             # 2. The point itself, by the turns at walls if there are any.
             waiting -= 1
             if count + turns.size + 1 > source.size:
-                path, source = with_rows(path, source, 2 * (count + turns.size + 1))
+                room = 2 * (count + turns.size + 1)
+                path, source = with_rows(path, room), with_places(source, room)
             for v in turns:
                 if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
                     path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v
@@ -355,14 +387,21 @@ def trace(
                 path[count, 0], path[count, 1], source[count] = qx, qy, goal_at[top, 1]
                 count += 1
             t, px, py = end, qx, qy
+            p_near[0], p_near[1] = goal_near[top, 0], goal_near[top, 1]
     return path[:count], source[:count]
 
 
-@njit()
+@njit(borrows=True)
 def ends_of(
-    banks: Banks, beads: Beads, are_given: bool, apart: float, scale_x: float, scale_y: float
+    banks: Banks,
+    beads: Beads,
+    near: Ints,
+    are_given: bool,
+    apart: float,
+    scale_x: float,
+    scale_y: float,
 ) -> Ends:
-    """Return the ends of a path, the first and the last bead if they are."""
+    """Return the ends of a path, the first and the last bead if they are; note what is near."""
     n = beads.side.size
     x0, y0, x1, y1 = 0.0, 0.0, 0.0, 0.0
     off_0, off_1, reach_0, reach_1 = 0.0, 0.0, 0.0, 0.0
@@ -370,11 +409,13 @@ def ends_of(
         x0, y0 = beads.point[0, 0] * scale_x, beads.point[0, 1] * scale_y
         x1, y1 = beads.point[n - 1, 0] * scale_x, beads.point[n - 1, 1] * scale_y
         off_0, reach_0 = off_and_reach(banks, apart, x0, y0)
+        near[0, 0], near[0, 1] = banks.last[0], banks.last[1]
         off_1, reach_1 = off_and_reach(banks, apart, x1, y1)
+        near[n - 1, 0], near[n - 1, 1] = banks.last[0], banks.last[1]
     return Ends(are_given, x0, y0, off_0, reach_0, x1, y1, off_1, reach_1)
 
 
-@njit()
+@njit(borrows=True)
 def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float, float]:
     """How far an end is off the trunk, and how far from it the line may still be on its way."""
     lean = lean_at(banks, x, y)
@@ -384,7 +425,7 @@ def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float
     return off, max(min(GLIDE * off, lean.to_main + lean.to_auxiliary), apart)
 
 
-@njit()
+@njit(borrows=True)
 def is_before_end(ends: Ends, x: float, y: float) -> bool:
     """Whether a point is so near to an end that the line has not come to the trunk yet."""
     return ends.are_given and (
@@ -393,7 +434,7 @@ def is_before_end(ends: Ends, x: float, y: float) -> bool:
     )
 
 
-@njit()
+@njit(borrows=True)
 def allowance(ends: Ends, x: float, y: float) -> float:
     """How far off the trunk a point may be because an end is: less and less away from it."""
     if not ends.are_given:
@@ -403,7 +444,7 @@ def allowance(ends: Ends, x: float, y: float) -> float:
     return ends.off_0 * max(first, 0.0) + ends.off_1 * max(last, 0.0)
 
 
-@njit()
+@njit(borrows=True)
 def is_near(
     px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
 ) -> bool:
@@ -411,16 +452,7 @@ def is_near(
     return length((qx - px) * scale_x, (qy - py) * scale_y) <= slack
 
 
-@njit()
-def with_rows(path: Floats, source: Ints, rows: int) -> tuple[Floats, Ints]:
-    """Return copies of a path and its sources with room for so many rows."""
-    n = source.size
-    longer_path, longer_source = np.empty((rows, 2)), np.empty(rows, np.intp)
-    longer_path[:n], longer_source[:n] = path, source
-    return longer_path, longer_source
-
-
-@njit()
+@njit(borrows=True)
 def worst_probe(
     banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
 ) -> tuple[float, float, float]:
@@ -454,7 +486,7 @@ def worst_probe(
     return at, wx, wy
 
 
-@njit()
+@njit(borrows=True)
 def walk_by(
     mesh: Mesh, t: int, px: float, py: float, x: float, y: float, qx: float, qy: float
 ) -> int:
@@ -468,7 +500,7 @@ def walk_by(
     return end if obstacle == -1 else -1
 
 
-@njit()
+@njit(borrows=True)
 def opposite_middle_turn(
     mesh: Mesh,
     banks: Banks,

@@ -19,6 +19,7 @@ from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond
 from midrib.kernels.paths import triangle_towards, walk
 from midrib.kernels.predicates import orient
+from midrib.kernels.tables import with_rows
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.kernels.windows import Spot, add_window, first_windows, part_window, with_room
 from midrib.types import Floats, Ints
@@ -32,8 +33,6 @@ __all__ = [
     "ray_meets_side",
     "sees",
     "squared_distance_to_side",
-    "twice",
-    "twice_ints",
 ]
 
 WINDOWS_PER_SIDE = 64  # rays go forward only, so that a side is looked through once a hole at most
@@ -61,7 +60,7 @@ def new_view() -> View:
     )
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def sees(mesh: Mesh, spot: Spot, side: int, qx: float, qy: float) -> bool:
     """Whether the straight way from P to Q, a point on a boundary side, is free.
 
@@ -80,7 +79,7 @@ def sees(mesh: Mesh, spot: Spot, side: int, qx: float, qy: float) -> bool:
 # -- looking around --------------------------------------------------------------------------------
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def squared_distance_to_side(
     px: float, py: float, ax: float, ay: float, bx: float, by: float, scale_x: float, scale_y: float
 ) -> float:
@@ -94,7 +93,7 @@ def squared_distance_to_side(
     return ex * ex + ey * ey
 
 
-@njit()
+@njit(borrows=True)
 def ray_meets_side(
     px: float, py: float, rx: float, ry: float, ax: float, ay: float, bx: float, by: float
 ) -> float:
@@ -104,7 +103,7 @@ def ray_meets_side(
     return at_a / (at_a - at_b) if at_a != at_b else np.nan
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def nearest_on_side(
     mesh: Mesh,
     goal: Goal,
@@ -150,7 +149,7 @@ def nearest_on_side(
     )
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def offer_of_segment(
     mesh: Mesh,
     goal: Goal,
@@ -177,7 +176,7 @@ def offer_of_segment(
     return share, at, kind
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def offer_of_ends(
     mesh: Mesh,
     goal: Goal,
@@ -253,7 +252,8 @@ def look(
             radius = np.sqrt(d)
             bound = min(bound, (radius + slack_of(goal.tie, radius)) ** 2)
             if count == near.shape[0]:
-                near, near_at = twice(near), twice_ints(near_at)
+                room = 2 * near.shape[0]
+                near, near_at = with_rows(near, room), with_rows(near_at, room)
             vertex = v if share == 1.0 else u if share == 0.0 else -1
             near[count, 0], near[count, 1], near[count, 2], near[count, 3] = qx, qy, arc, d
             near_at[count, 1], near_at[count, 2] = vertex, kind
@@ -273,34 +273,20 @@ def look(
     return View(near, near_at, stack, windows, view.nodes), count
 
 
-@njit()
+@njit(borrows=True)
 def segment_at(goal: Goal, vertex: int) -> int:
-    """Segment of the curve that leaves one of its vertices; of its end, the one that arrives."""
-    return min(goal.place[vertex], goal.chain.side.size - 1)
+    """Segment of the curve that leaves one of its vertices; of its end, the one that arrives.
 
-
-@njit()
-def twice(table: Floats) -> Floats:
-    """Copy of a table with room for as many rows again."""
-    n = table.shape[0]
-    larger = np.empty((2 * n, table.shape[1]))
-    larger[:n] = table
-    return larger
-
-
-@njit()
-def twice_ints(table: Ints) -> Ints:
-    """Copy of a table with room for as many rows again."""
-    n = table.shape[0]
-    larger = np.empty((2 * n, table.shape[1]), np.intp)
-    larger[:n] = table
-    return larger
+    So too where a bridge leaves the vertex.
+    """
+    j = min(goal.place[vertex], goal.chain.side.size - 1)
+    return j if goal.chain.side[j] >= 0 else j - 1
 
 
 # -- ties ------------------------------------------------------------------------------------------
 
 
-@njit()
+@njit(borrows=True)
 def keep_ties(tie: float, view: View, count: int) -> int:
     """Sort the points found by arc length; drop those that are not nearest, or double.
 

@@ -15,10 +15,9 @@ A table of windows has one row each: side, right, left.
 
 from typing import NamedTuple
 
-import numpy as np
-
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, is_beyond, pull_inside
+from midrib.kernels.tables import with_rows
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Ints
 
@@ -34,7 +33,7 @@ class Spot(NamedTuple):
     vertex: int
 
 
-@njit()
+@njit(borrows=True)
 def spot_at(mesh: Mesh, x: float, y: float, side: int, vertex: int) -> Spot:
     """Return a point of the boundary to look from.
 
@@ -51,14 +50,10 @@ def with_room(windows: Ints, count: int) -> Ints:
     """Return the table itself, or a copy twice as long where fewer than three rows are left."""
     if count + 3 <= windows.shape[0]:
         return windows
-    larger = np.empty((2 * windows.shape[0], 3), np.intp)
-    for i in range(count):
-        for k in range(3):
-            larger[i, k] = windows[i, k]
-    return larger
+    return with_rows(windows, 2 * windows.shape[0])
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def add_window(windows: Ints, count: int, side: int, right: int, left: int) -> int:
     """Append a window; return the new count."""
     windows[count, 0], windows[count, 1], windows[count, 2] = side, right, left
@@ -103,7 +98,7 @@ def first_windows(mesh: Mesh, spot: Spot, windows: Ints) -> tuple[Ints, int]:
     return windows, count
 
 
-@njit(inline=True)
+@njit(inline=True, borrows=True)
 def part_window(
     e: int, w: int, right: int, left: int, by_right: float, by_left: float, windows: Ints
 ) -> int:
