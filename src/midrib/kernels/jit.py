@@ -81,6 +81,8 @@ def njit(
 
     def compiled(kernel: Kernel) -> Kernel:
         config: Any = nb.config
+        if config.DISABLE_JIT:
+            return kernel
         usual = config.CACHE_DIR
         config.CACHE_DIR = CACHE_FOLDER
         try:
