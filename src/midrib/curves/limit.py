@@ -118,7 +118,7 @@ def trace(layout: Layout, tolerance: float, limits: Limits) -> Radii:
     )
     found = kernel.draw_limit(
         mesh, main, layout.auxiliary, stations, segment, limits.between(stations),
-        tolerance, max(tolerance, ARCS_WITHIN * layout.mean_width), *layout.scale,
+        tolerance, max(tolerance, ARCS_WITHIN * layout.mean_width), *layout.scale, True,
     )  # fmt: skip
     is_lopsided = np.zeros(len(found.points), dtype=np.bool_)
     return Radii(found.stations, found.points, found.at, is_lopsided, NO_BAYS)

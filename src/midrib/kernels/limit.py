@@ -17,9 +17,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.boxtree import GRAZE, VERTEX
-from midrib.kernels.chain import Chain, slack_of
+from midrib.kernels.boxtree import DEPTH, GRAZE, VERTEX
+from midrib.kernels.chain import Chain, Goal, goal_of, slack_of
 from midrib.kernels.envelope import farthest_between, is_same_motion, place_at, squared_distance
+from midrib.kernels.glance import UNSURE, glance_along, is_without_holes
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
@@ -79,6 +80,7 @@ def draw_limit(
     arcs_within: float,
     scale_x: float,
     scale_y: float,
+    glances: bool,
 ) -> Limit:
     """Radii whose middles make a chain within the tolerance of the limit curve.
 
@@ -93,6 +95,7 @@ def draw_limit(
         the chain; at 0 every event is a vertex
     arcs_within : how far chords may be from arcs of hyperbolas
     scale_x, scale_y : lengths of one unit of x and of y
+    glances : whether to glance before looking around; the answer is the same, but comes sooner
 
     Returns
     -------
@@ -106,7 +109,9 @@ def draw_limit(
     rounding. Time grows with the number of triangles nearer than the answer from some P.
     """
     scene = scene_of(mesh, auxiliary, scale_x, scale_y)
-    pieces = trace_pieces(scene, main, stations, segment, limits)
+    goal = goal_of(mesh, auxiliary, scale_x, scale_y)
+    glances = glances and is_without_holes(mesh)
+    pieces = trace_pieces(mesh, scene, goal, main, stations, segment, limits, glances)
     knots = tie_knots(mesh, scene, main, pieces, tolerance > 0.0)
     kept = np.ones(knots.t.size, np.bool_)
     if tolerance > 0.0:
@@ -116,26 +121,44 @@ def draw_limit(
 
 @njit()
 def trace_pieces(
-    scene: Scene, main: Chain, stations: Floats, segment: Ints, limits: Floats
+    mesh: Mesh,
+    scene: Scene,
+    goal: Goal,
+    main: Chain,
+    stations: Floats,
+    segment: Ints,
+    limits: Floats,
+    glances: bool,
 ) -> Pieces:
     """Pieces of the whole main curve; those that go on past a cut are one."""
     row, at, total = np.empty((64, 6)), np.empty((64, 4), np.intp), 0
     windows, rows = 256, 128
     outlook, reach, limit = new_outlook(windows, rows), np.inf, np.empty(4)
+    hint, seen, stack = 0, np.full(2, np.nan), np.empty(DEPTH, np.intp)
     for i in range(stations.size - 1):
         k = segment[i]
         run = main.arc[k + 1] - main.arc[k]
         start, stop = (stations[i] - main.arc[k]) / run, (stations[i + 1] - main.arc[k]) / run
         walk = walk_along(scene, main.vertex[k], main.vertex[k + 1])
         write_limits(limits[i], start, stop, limit)
-        # 1. Q is hardly farther than a step ago. If it is, or is none, P looks again, farther.
+        # 1. A glance. Else Q is hardly farther than a step ago; if it is, or is none, P looks
+        #    again, farther.
         bound = (reach + (stations[i + 1] - stations[i])) * A_BIT_FARTHER
+        is_clear = glances
         while True:
-            count = look_along(scene, walk, main.side[k], start, stop, limit, bound, outlook)
+            if is_clear:
+                count = glance_along(
+                    mesh, goal, walk, main.side[k], start, stop, limit, hint, seen, outlook, stack
+                )
+                is_clear = count != UNSURE
+            if not is_clear:
+                count = look_along(scene, walk, main.side[k], start, stop, limit, bound, outlook)
             if count < 0:
                 windows, rows = 4 * windows, 4 * rows
                 outlook = new_outlook(windows, rows)
                 continue
+            if is_clear:
+                break
             farthest = np.sqrt(farthest_between(outlook.motions.row, count, start, stop))
             if farthest <= bound or bound == np.inf:
                 break
@@ -162,6 +185,7 @@ def trace_pieces(
         last, reach = count - 1, np.inf
         if count > 0 and found[last, TO] == stop:
             reach = np.sqrt(squared_distance(walk, found, last, stop))
+            hint = max(goal.segment[found_at[last, AT_SIDE]], 0)
     # 3. Slivers are left out.
     kept, least = 0, SLIVER * main.arc[-1]
     for j in range(total):
