@@ -21,7 +21,7 @@ limits cut what is near, the answer is left to ``look_along``: it is the same, b
 
 import numpy as np
 
-from midrib.kernels.boxtree import LEAF, squared_distance_to_box
+from midrib.kernels.boxtree import FOOT, LEAF, VERTEX, squared_distance_to_box
 from midrib.kernels.chain import Goal, slack_of
 from midrib.kernels.envelope import (
     Walk,
@@ -35,7 +35,7 @@ from midrib.kernels.envelope import (
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.outlook import Outlook, offer_side
+from midrib.kernels.outlook import Outlook
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import sees, squared_distance_to_side
@@ -105,7 +105,7 @@ def lowest_along(
 ) -> int:
     """Write the envelope of the whole curve, seen or not; the number of pieces."""
     row, at, work, base = outlook.motions
-    share, x, y, boxes, arc = outlook.share, goal.x, goal.y, goal.boxes, goal.chain.arc
+    x, y, boxes, arc = goal.x, goal.y, goal.boxes, goal.chain.arc
     low, high = max(limit[0], limit[1]), min(limit[2], limit[3])
     middle, half = (start + stop) / 2.0, (stop - start) / 2.0
     px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
@@ -138,14 +138,7 @@ def lowest_along(
             e = goal.chain.side[j]
             if e < 0 or arc[j] < low or arc[j + 1] > high:
                 return UNSURE
-            u, v = mesh.tri[e], mesh.tri[next_side(e)]
-            if u != goal.chain.vertex[j]:
-                ux, uy, vx, vy = vx, vy, ux, uy
-            row[first, 6], row[first, 7], row[first, 8], row[first, 9] = ux, uy, vx - ux, vy - uy
-            offers = offer_side(
-                mesh.x, mesh.y, walk, e, u, v, u, v, start, stop, False,
-                row, at, work, share, first,
-            )  # fmt: skip
+            offers = offer_segment(goal, mesh, walk, j, start, stop, row, at, first)
             for i in range(first, first + offers):
                 if is_idle(walk, row, work, count, i):
                     continue
@@ -155,6 +148,86 @@ def lowest_along(
             bound = np.sqrt(farthest_between(row, count, start, stop)) + reach
             bound *= bound * A_BIT_FARTHER
     return count
+
+
+@njit(borrows=True)
+def feet_on(goal: Goal, walk: Walk, j: int) -> tuple[float, float]:
+    """Shares of P's foot on the line of a segment of the curve, for P at 0 and at 1."""
+    ux, uy = goal.x[j], goal.y[j]
+    dx, dy = goal.x[j + 1] - ux, goal.y[j + 1] - uy
+    squared = dx * dx + dy * dy
+    if squared == 0.0:
+        return 0.0, 0.0
+    return (
+        ((walk.ax - ux) * dx + (walk.ay - uy) * dy) / squared,
+        ((walk.bx - ux) * dx + (walk.by - uy) * dy) / squared,
+    )
+
+
+@njit(borrows=True)
+def below(at_a: float, at_b: float, least: float, most: float) -> tuple[float, float]:
+    """Return the part of an interval in which a linear function is not positive."""
+    at_least, at_most = at_a + least * (at_b - at_a), at_a + most * (at_b - at_a)
+    if at_least <= 0.0 and at_most <= 0.0:
+        return least, most
+    if at_least > 0.0 and at_most > 0.0:
+        return most, most
+    root = min(max(at_a / (at_a - at_b), least), most)
+    return (least, root) if at_least <= 0.0 else (root, most)
+
+
+@njit(borrows=True)
+def offer_segment(
+    goal: Goal,
+    mesh: Mesh,
+    walk: Walk,
+    j: int,
+    start: float,
+    stop: float,
+    row: Floats,
+    at: Ints,
+    i: int,
+) -> int:
+    """Write where P's foot is on a segment, and where it rests in its start, from row i on.
+
+    A vertex is the nearest only where the feet on both of its segments are beyond it. Of the last
+    segment the end is offered too. Return the number of offers.
+    """
+    e = goal.chain.side[j]
+    u, v = mesh.tri[e], mesh.tri[next_side(e)]
+    is_forward = u == goal.chain.vertex[j]
+    by_a, by_b = feet_on(goal, walk, j)
+    offers, last = 0, goal.x.size - 2
+    for k in range(3):
+        if k == 0:
+            low, high = below(-by_a, -by_b, start, stop)
+            low, high = below(by_a - 1.0, by_b - 1.0, low, high)
+        elif k == 1:
+            low, high = below(by_a, by_b, start, stop)
+            if j > 0 and low < high:
+                before_a, before_b = feet_on(goal, walk, j - 1)
+                low, high = below(1.0 - before_a, 1.0 - before_b, low, high)
+        elif j == last:
+            low, high = below(1.0 - by_a, 1.0 - by_b, start, stop)
+        else:
+            break
+        if not low < high:
+            continue
+        new = i + offers
+        row[new, 0], row[new, 1], row[new, 4], row[new, 5] = low, high, 1.0, 1.0
+        at[new, 0], at[new, 3], at[new, 4] = e, u, v
+        if k == 0:
+            at[new, 1], at[new, 2] = FOOT, -1
+            row[new, 2] = by_a if is_forward else 1.0 - by_a
+            row[new, 3] = by_b if is_forward else 1.0 - by_b
+        else:
+            at[new, 1], at[new, 2] = VERTEX, u if (k == 1) == is_forward else v
+            row[new, 2] = row[new, 3] = 0.0 if (k == 1) == is_forward else 1.0
+        at_u, at_v = (j, j + 1) if is_forward else (j + 1, j)
+        row[new, 6], row[new, 7] = goal.x[at_u], goal.y[at_u]
+        row[new, 8], row[new, 9] = goal.x[at_v] - goal.x[at_u], goal.y[at_v] - goal.y[at_u]
+        offers += 1
+    return offers
 
 
 @njit(borrows=True)
@@ -207,9 +280,7 @@ def point_on(mesh: Mesh, e: int, share: float) -> tuple[float, float]:
 
 
 @njit(borrows=True)
-def is_free(
-    mesh: Mesh, walk: Walk, side: int, t: float, e: int, qx: float, qy: float
-) -> bool:
+def is_free(mesh: Mesh, walk: Walk, side: int, t: float, e: int, qx: float, qy: float) -> bool:
     """Whether the sight from P to Q on side e is free."""
     a, b = walk.a, walk.b
     if t == 0.0:

@@ -31,6 +31,7 @@ from midrib.kernels.envelope import (
     lower_by,
     new_motions,
 )
+from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.predicates import orient
@@ -40,6 +41,7 @@ from midrib.types import Floats, Ints
 
 __all__ = ["Outlook", "Scene", "look_along", "new_outlook", "scene_of", "walk_along"]
 
+FRESH = 6
 FIRST, LAST, AT_FOOT, LOW, HIGH = 0, 1, 2, 3, 4
 NO_LIMIT = 2.0**500  # infinite shares could not be compared
 
@@ -65,8 +67,10 @@ class Outlook(NamedTuple):
     """Tables that are kept from one side to the next."""
 
     motions: Motions
-    window: Ints  # (k, 3) side, right, left
+    window: Ints  # (k, 3) side, right, left; the first FRESH rows are those of the latest parting
     span: Floats  # (k, 2) from, to
+    near: Floats  # (k,) square of the distance to the side from the middle of the walk
+    heap: Ints  # (k,) rows that wait, by how near they are, then rows that are free again
     share: Floats  # (5, 4) n and m at 0 and 1 of the ends, the foot and the limits
 
 
@@ -113,6 +117,8 @@ def new_outlook(windows: int, pieces: int) -> Outlook:
         new_motions(pieces),
         np.empty((windows, 3), np.intp),
         np.empty((windows, 2)),
+        np.empty(windows),
+        np.empty(windows, np.intp),
         np.empty((5, 4)),
     )
 
@@ -134,6 +140,7 @@ def look_along(
     farther than ``bound`` may be missing. Negative if the tables are too small.
     """
     window, span, share = outlook.window, outlook.span, outlook.share
+    near, heap = outlook.near, outlook.heap
     row, at, work, base = outlook.motions
     tri, twin, x, y, segment, place = (
         scene.tri, scene.twin, scene.x, scene.y, scene.segment, scene.place,
@@ -146,28 +153,29 @@ def look_along(
     px, py = px / scale_x, py / scale_y
     # 1. The side itself, for its ends, and the other two of its triangle.
     u, v, w = tri[side], tri[next_side(side)], tri[previous_side(side)]
-    depth = add_window(window, span, 0, side, u, v, start, stop)
-    depth = add_window(window, span, depth, previous_side(side), w, u, start, stop)
-    depth = add_window(window, span, depth, next_side(side), v, w, start, stop)
+    fresh = add_window(window, span, 0, side, u, v, start, stop)
+    fresh = add_window(window, span, fresh, previous_side(side), w, u, start, stop)
+    fresh = add_window(window, span, fresh, next_side(side), v, w, start, stop)
+    size, used = let_wait(scene, px, py, bound + reach, fresh, 0, 0, outlook)
     count, left_to_do = 0, WINDOWS_PER_SIDE * tri.size
-    while depth > 0 and left_to_do > 0:
-        depth, left_to_do = depth - 1, left_to_do - 1
-        e, right, left = window[depth, 0], window[depth, 1], window[depth, 2]
-        low, high = span[depth, 0], span[depth, 1]
+    while size > 0 and left_to_do > 0:
+        waiting = pop(heap, near, size)
+        size, left_to_do = size - 1, left_to_do - 1
+        heap[size] = waiting
+        e, right, left = window[waiting, 0], window[waiting, 1], window[waiting, 2]
+        low, high = span[waiting, 0], span[waiting, 1]
         # 2. What cannot be nearer than what is known is left out.
         u, v = tri[e], tri[next_side(e)]
-        near = squared_distance_to_side(px, py, x[u], y[u], x[v], y[v], scale_x, scale_y)
-        near = max(np.sqrt(near) - reach, 0.0)
-        if near > bound or near * near > farthest_between(row, count, low, high):
+        least = max(np.sqrt(near[waiting]) - reach, 0.0)
+        if least * least > farthest_between(row, count, low, high):
             continue
         # 3. An open side is parted, boundary makes its offers.
         if twin[e] >= 0:
-            if depth + 6 > window.shape[0]:
+            if FRESH + size + FRESH > window.shape[0]:
                 return -1
             w = tri[previous_side(twin[e])]
-            depth = part(
-                x, y, walk.a, walk.b, twin[e], w, right, left, low, high, window, span, depth
-            )
+            fresh = part(x, y, walk.a, walk.b, twin[e], w, right, left, low, high, window, span, 0)
+            size, used = let_wait(scene, px, py, bound + reach, fresh, size, used, outlook)
             continue
         first = 2 * base
         if segment[e] >= 0:
@@ -199,6 +207,43 @@ def add_window(
     window[depth, 0], window[depth, 1], window[depth, 2] = e, right, left
     span[depth, 0], span[depth, 1] = a, b
     return depth + 1
+
+
+@njit(borrows=True)
+def let_wait(
+    scene: Scene,
+    px: float,
+    py: float,
+    bound: float,
+    fresh: int,
+    size: int,
+    used: int,
+    outlook: Outlook,
+) -> tuple[int, int]:
+    """Put fresh windows on the heap, but for those that are farther than ``bound``.
+
+    The nearest is looked through first, so none that is farther than the answer (from a depth
+    first search to this: half the time or less). Return the numbers of windows and of rows in use.
+    """
+    window, span, near, heap = outlook.window, outlook.span, outlook.near, outlook.heap
+    x, y = scene.x, scene.y
+    for i in range(fresh):
+        u, v = scene.tri[window[i, 0]], scene.tri[next_side(window[i, 0])]
+        squared = squared_distance_to_side(
+            px, py, x[u], y[u], x[v], y[v], scene.scale_x, scene.scale_y
+        )
+        if squared > bound * bound:
+            continue
+        if size < used:
+            k = heap[size]
+        else:
+            k, used = FRESH + used, used + 1
+        add_window(
+            window, span, k, window[i, 0], window[i, 1], window[i, 2], span[i, 0], span[i, 1]
+        )
+        near[k] = squared
+        size = push(heap, near, size, k)
+    return size, used
 
 
 @njit(inline=True, borrows=True)
