@@ -12,6 +12,7 @@ from shapely import LineString, MultiLineString, Point, Polygon
 from shapely.affinity import scale
 
 from midrib import Curve, Strip, collapse, minimal_radii, split
+from midrib.curves.limit import kernel as kernels
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.kernels.boxtree import GRAZE
 from midrib.types import Floats
@@ -163,6 +164,63 @@ def test_halving_the_tolerance_never_worsens_the_chain(strip: Strip, share: floa
     slack = ARCS_WITHIN * strip.layout.mean_width
     assert off[1] <= max(off[0], 0.0) + slack
     assert limit(strip, tolerance).radii.size <= limit(strip, tolerance / 2.0).radii.size
+
+
+def without_glances(strip: Strip, tolerance: float, **options: Any) -> Curve:
+    """The curve by looking through windows only."""
+    usual = kernels.draw_limit
+
+    def plain(*args: Any) -> Any:
+        return usual(*args[:-1], False)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(kernels, "draw_limit", plain)
+        return limit(strip, tolerance, **options)
+
+
+def check_glances(strip: Strip, **options: Any) -> None:
+    """Knots and gaps are the same, up to rounding and to how equally near points are told apart."""
+    quick, plain = limit(strip, 0.0, **options), without_glances(strip, 0.0, **options)
+    size = Referee(strip.area, strip.auxiliary).size
+    within = ROUNDING * size
+    for one, other in ((quick, plain), (plain, quick)):
+        knots = shapely.multipoints(other.points)
+        off = shapely.distance(shapely.points(one.points), knots)
+        # A knot more or less where motions tie all along: it is on the other curve even so.
+        on_curve = shapely.distance(shapely.points(one.points), runs_of(other))
+        assert np.count_nonzero(off > NEAR_EVENT * size) <= 2
+        assert on_curve.max(initial=0.0) <= ARCS_WITHIN * strip.layout.mean_width + within
+    assert quick.gaps == pytest.approx(plain.gaps, abs=NEAR_EVENT * strip.main.length)
+    same = np.interp(quick.stations, plain.stations, plain.radii)
+    clear = is_clear(plain, quick.stations, strip.main.length)
+    assert quick.radii[clear] == pytest.approx(same[clear], rel=1e-3)
+
+
+@given(strip=divided(st.one_of(simple_areas, tangled(), polyominoes(), combs())))
+@settings(max_examples=150)
+def test_a_glance_finds_what_looking_around_does(strip: Strip) -> None:
+    check_glances(strip)
+
+
+@given(strip=divided(with_holes()))
+@settings(max_examples=50)
+def test_glances_leave_islands_to_looking_around(strip: Strip) -> None:
+    check_glances(strip)
+
+
+@given(strip=divided(simple_areas), share=st.sampled_from([0.11, 0.3]))
+@settings(max_examples=50)
+def test_glances_keep_the_end_clearance(strip: Strip, share: float) -> None:
+    try:
+        check_glances(strip, end_clearance=share * strip.auxiliary.length)
+    except InvalidAreaError:
+        assume(False)
+
+
+@pytest.mark.parametrize("name", ["L", "chevron", "comb", "hook", "kite", "river_with_island"])
+@pytest.mark.parametrize("clearance", [None, "station", "proportional"])
+def test_named_areas_at_a_glance(name: str, clearance: str | None) -> None:
+    check_glances(split(NAMED[name]), end_clearance=clearance)
 
 
 def test_a_rectangle_needs_two_stations() -> None:

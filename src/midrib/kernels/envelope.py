@@ -26,6 +26,7 @@ from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
 __all__ = [
+    "SLIVER",
     "Motions",
     "Walk",
     "farthest_between",
@@ -39,6 +40,7 @@ __all__ = [
 ]
 
 MOST_OFFERS = 64
+SLIVER = 2.0**-40  # of a side, or of a whole curve: what is shorter is rounding
 MOST_TIES = 24  # of two motions: six, and what rounding makes of double ones
 FROM, TO, N, M, U, RUN, FARTHEST = 0, 1, 2, 4, 6, 8, 10
 SIDE, KIND, GRAZED, FIRST_END, LAST_END = 0, 1, 2, 3, 4
@@ -249,14 +251,18 @@ def add_product(w: Floats, i: int, m_a: float, m_b: float, sign: float) -> None:
 
 @njit(borrows=True)
 def farthest_between(row: Floats, count: int, a: float, b: float) -> float:
-    """Bound of the envelope's squared distance from a to b, inf where it has no piece."""
-    reached, most = a, 0.0
+    """Bound of the envelope's squared distance from a to b, inf where it has no piece.
+
+    Gaps of a sliver do not count: what is seen from there only is left out in the end, and nobody
+    has to search the whole area for it.
+    """
+    reached, most = a + SLIVER, 0.0
     for k in range(count):
         if row[k, 1] <= a:
             continue
         if row[k, 0] > reached or reached >= b:
             break
-        most, reached = max(most, row[k, 10]), row[k, 1]
+        most, reached = max(most, row[k, 10]), row[k, 1] + SLIVER
     return most if reached >= b else np.inf
 
 

@@ -9,20 +9,27 @@ seen takes a walk through every window. Mostly both are the same, and two sights
     P0 ---- P1           the main curve; Q is on its left
 
 The loop P0 P1 Q1 Q0 consists of boundary and of two sights. If these are free, it lies in the area;
-so does, in an area without holes, all that it winds around. That is where the sights between are:
-each point of a sight moves to the left or rests as P does, between P and a Q that either rests or
-is P's foot; so the sights sweep the plane in one sense of rotation, and the loop winds once or
-more around each point that they come through. (Where P walks towards Q, sights are parts of the
-sight from the other end.) Thus Q is seen, and since nothing at all is nearer, no more is to prove.
+so does all that it winds around, unless that holds a hole. That is where the sights between are:
+P walks with Q on its left, and Q rests or is P's foot, so each point of the sight crosses it to
+the same side, or rests. The sights sweep the plane without turning back, and the loop winds once
+or more around each point that they come through. Thus Q is seen; and nothing at all is nearer.
 
-Where Q jumps, one loop ends and one begins. Where a sight is not free, or it is in doubt, where
-limits cut what is near, the answer is left to ``look_along``: it is the same, but takes longer.
+Where Q jumps from one segment to the next, around a corner, it might as well walk there while P
+waits: in the same sense as before. Where it jumps otherwise, one loop ends and one begins. A hole
+that a loop winds around lies within its reach, with sides that are on neither curve: for the hole
+of a curve itself is on the wrong side of P, or of Q.
+
+Where a sight is not free or along P's own wall, where limits cut what is near or a hole may be in
+between, the answer is left to ``look_along``: it is the same, but takes longer.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.boxtree import FOOT, LEAF, VERTEX, squared_distance_to_box
-from midrib.kernels.chain import Goal, slack_of
+from midrib.kernels.boxtree import FOOT, LEAF, VERTEX, box_tree, squared_distance_to_box
+from midrib.kernels.chain import Chain, Goal, slack_of
+from midrib.kernels.clearance import nearest_of
 from midrib.kernels.envelope import (
     Walk,
     farthest_between,
@@ -40,12 +47,47 @@ from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import sees, squared_distance_to_side
 from midrib.kernels.windows import spot_at
-from midrib.types import Floats, Ints
+from midrib.types import Bools, Floats, Ints
 
-__all__ = ["UNSURE", "glance_along", "is_without_holes"]
+__all__ = ["UNSURE", "Others", "glance_along", "is_without_holes", "others_of"]
 
 UNSURE = -2
 A_BIT_FARTHER = 1.0 + 2.0**-20  # of a squared distance: more than what rounding does to it
+
+
+class Others(NamedTuple):
+    """Boundary sides that are on neither curve, with links between them; see ``clearance``."""
+
+    x: Floats  # in lengths, as y and boxes
+    y: Floats
+    goes_on: Bools  # whether a segment is a side, not a link
+    boxes: Floats
+
+
+@njit()
+def others_of(mesh: Mesh, main: Chain, goal: Goal) -> Others:
+    """Prepare to look for holes; none where there are none. O(n)."""
+    is_main = np.zeros(mesh.tri.size, np.bool_)
+    for e in main.side:
+        is_main[e] = True
+    x, y, count = np.empty(mesh.tri.size + 2), np.empty(mesh.tri.size + 2), 0
+    if not is_without_holes(mesh):
+        for v in range(mesh.x.size):
+            e = mesh.door[v]
+            while e >= 0:
+                if goal.segment[e] < 0 and not is_main[e]:
+                    w = mesh.tri[next_side(e)]
+                    x[count], y[count] = mesh.x[v] * goal.scale_x, mesh.y[v] * goal.scale_y
+                    x[count + 1], y[count + 1] = mesh.x[w] * goal.scale_x, mesh.y[w] * goal.scale_y
+                    count += 2
+                e = mesh.other_door[e]
+    x, y = x[:count], y[:count]
+    if count == 0:
+        return Others(x, y, np.zeros(0, np.bool_), np.empty((0, 4)))
+    goes_on = np.zeros(count, np.bool_)
+    for i in range(0, count, 2):
+        goes_on[i] = True
+    return Others(x, y, goes_on, box_tree(x, y))
 
 
 @njit(borrows=True)
@@ -68,6 +110,7 @@ def is_without_holes(mesh: Mesh) -> bool:
 def glance_along(
     mesh: Mesh,
     goal: Goal,
+    others: Others,
     walk: Walk,
     side: int,
     start: float,
@@ -78,13 +121,16 @@ def glance_along(
     outlook: Outlook,
     stack: Ints,
 ) -> int:
-    """As ``look_along``, in an area without holes; ``UNSURE`` where that has to look.
+    """As ``look_along``; ``UNSURE`` where that has to look.
 
     ``hint`` is a segment of the curve near the answer. ``seen`` holds Q of a sight from the start
     that is known to be free, if any, else NaN; then that from the stop. O(log n) near the hint.
     """
     count = lowest_along(goal, mesh, walk, start, stop, limit, hint, outlook, stack)
-    if count > 0 and not is_seen(mesh, goal, walk, side, seen, outlook, count):
+    if count > 0 and not (
+        is_apart(others, walk, start, stop, outlook, count, stack)
+        and is_seen(mesh, goal, walk, side, seen, outlook, count)
+    ):
         count = UNSURE
     if count <= 0:
         seen[0] = seen[1] = np.nan
@@ -148,6 +194,28 @@ def lowest_along(
             bound = np.sqrt(farthest_between(row, count, start, stop)) + reach
             bound *= bound * A_BIT_FARTHER
     return count
+
+
+@njit(borrows=True)
+def is_apart(
+    others: Others,
+    walk: Walk,
+    start: float,
+    stop: float,
+    outlook: Outlook,
+    count: int,
+    stack: Ints,
+) -> bool:
+    """Whether no hole is within the reach of sights."""
+    if others.x.size == 0:
+        return True
+    middle, half = (start + stop) / 2.0, (stop - start) / 2.0
+    px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
+    reach = half * length(walk.bx - walk.ax, walk.by - walk.ay)
+    reach += np.sqrt(farthest_between(outlook.motions.row, count, start, stop))
+    x, y, goes_on, boxes = others
+    _, _, squared = nearest_of(px, py, x, y, goes_on, boxes, 0, stack)
+    return squared > reach * reach * A_BIT_FARTHER
 
 
 @njit(borrows=True)
@@ -249,16 +317,18 @@ def is_seen(
     a, b = mesh.tri[side], mesh.tri[next_side(side)]
     for k in range(count):
         for end in range(2):
-            # 1. Q stays on the side's left, where the area is.
+            # 1. Q stays on the side's left, where the area is, and off its line.
             t, e = row[k, end], at[k, 0]
             from_x, from_y = qx, qy
             qx, qy = point_on(mesh, e, place_at(row, k, t))
-            if orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], qx, qy) < 0.0:
+            if orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], qx, qy) <= 0.0:
                 return False
             # 2. Where it does not go on from where it was, both sights have to be free.
             if end == 0:
                 off = length((qx - from_x) * goal.scale_x, (qy - from_y) * goal.scale_y)
                 if off <= slack_of(goal.tie, np.sqrt(squared_distance(walk, row, k, t))):
+                    continue
+                if k > 0 and turns_on(mesh, goal, walk, side, outlook, k):
                     continue
                 if k > 0 and not is_free(mesh, walk, side, t, at[k - 1, 0], from_x, from_y):
                     return False
@@ -268,6 +338,38 @@ def is_seen(
                 return False
     seen[0], seen[1] = qx, qy
     return True
+
+
+@njit(borrows=True)
+def turns_on(mesh: Mesh, goal: Goal, walk: Walk, side: int, outlook: Outlook, k: int) -> bool:
+    """Whether Q jumps around the corner of two segments, and forwards, where piece k begins."""
+    row, at = outlook.motions.row, outlook.motions.at
+    e, f, t = at[k - 1, 0], at[k, 0], row[k, 0]
+    i, j = goal.segment[e], goal.segment[f]
+    if abs(i - j) != 1:
+        return False
+    v = goal.chain.vertex[max(i, j)]
+    px, py, _ = point_of(mesh, walk, t)
+    qx, qy = point_on(mesh, e, place_at(row, k - 1, t))
+    to_x, to_y = point_on(mesh, f, place_at(row, k, t))
+    first = orient(px, py, qx, qy, mesh.x[v], mesh.y[v])
+    second = orient(px, py, mesh.x[v], mesh.y[v], to_x, to_y)
+    # With Q on the left of the way ahead, what moves on turns to the right around P.
+    if mesh.tri[side] == walk.a:
+        return first < 0.0 and second < 0.0
+    return first > 0.0 and second > 0.0
+
+
+@njit(borrows=True)
+def point_of(mesh: Mesh, walk: Walk, t: float) -> tuple[float, float, int]:
+    """P, and the mesh vertex that it is or -1."""
+    a, b = walk.a, walk.b
+    if t == 0.0:
+        return mesh.x[a], mesh.y[a], a
+    if t == 1.0:
+        return mesh.x[b], mesh.y[b], b
+    x, y = mesh.x[a] + t * (mesh.x[b] - mesh.x[a]), mesh.y[a] + t * (mesh.y[b] - mesh.y[a])
+    return x, y, -1
 
 
 @njit(borrows=True)
@@ -282,12 +384,5 @@ def point_on(mesh: Mesh, e: int, share: float) -> tuple[float, float]:
 @njit(borrows=True)
 def is_free(mesh: Mesh, walk: Walk, side: int, t: float, e: int, qx: float, qy: float) -> bool:
     """Whether the sight from P to Q on side e is free."""
-    a, b = walk.a, walk.b
-    if t == 0.0:
-        px, py, vertex = mesh.x[a], mesh.y[a], a
-    elif t == 1.0:
-        px, py, vertex = mesh.x[b], mesh.y[b], b
-    else:
-        px, py = mesh.x[a] + t * (mesh.x[b] - mesh.x[a]), mesh.y[a] + t * (mesh.y[b] - mesh.y[a])
-        vertex = -1
+    px, py, vertex = point_of(mesh, walk, t)
     return sees(mesh, spot_at(mesh, px, py, side, vertex), e, qx, qy)

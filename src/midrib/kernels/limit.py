@@ -19,8 +19,14 @@ import numpy as np
 
 from midrib.kernels.boxtree import DEPTH, GRAZE, VERTEX
 from midrib.kernels.chain import Chain, Goal, goal_of, slack_of
-from midrib.kernels.envelope import farthest_between, is_same_motion, place_at, squared_distance
-from midrib.kernels.glance import UNSURE, glance_along, is_without_holes
+from midrib.kernels.envelope import (
+    SLIVER,
+    farthest_between,
+    is_same_motion,
+    place_at,
+    squared_distance,
+)
+from midrib.kernels.glance import UNSURE, Others, glance_along, others_of
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
@@ -34,7 +40,6 @@ from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Limit", "draw_limit"]
 
-SLIVER = 2.0**-40  # of the main curve's length: pieces and gaps that are shorter are rounding
 SAME_OFF = 1.0 - 2.0**-20  # two knots are the farthest if rounding may have decided
 HALVINGS = 14  # of an arc: chords within 2^-28 of its extent
 A_BIT_FARTHER, MUCH_FARTHER = 1.0 + 2.0**-10, 2.0
@@ -110,8 +115,8 @@ def draw_limit(
     """
     scene = scene_of(mesh, auxiliary, scale_x, scale_y)
     goal = goal_of(mesh, auxiliary, scale_x, scale_y)
-    glances = glances and is_without_holes(mesh)
-    pieces = trace_pieces(mesh, scene, goal, main, stations, segment, limits, glances)
+    others = others_of(mesh, main, goal)
+    pieces = trace_pieces(mesh, scene, goal, others, main, stations, segment, limits, glances)
     knots = tie_knots(mesh, scene, main, pieces, tolerance > 0.0)
     kept = np.ones(knots.t.size, np.bool_)
     if tolerance > 0.0:
@@ -124,6 +129,7 @@ def trace_pieces(
     mesh: Mesh,
     scene: Scene,
     goal: Goal,
+    others: Others,
     main: Chain,
     stations: Floats,
     segment: Ints,
@@ -148,7 +154,18 @@ def trace_pieces(
         while True:
             if is_clear:
                 count = glance_along(
-                    mesh, goal, walk, main.side[k], start, stop, limit, hint, seen, outlook, stack
+                    mesh,
+                    goal,
+                    others,
+                    walk,
+                    main.side[k],
+                    start,
+                    stop,
+                    limit,
+                    hint,
+                    seen,
+                    outlook,
+                    stack,
                 )
                 is_clear = count != UNSURE
             if not is_clear:
