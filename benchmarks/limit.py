@@ -84,8 +84,12 @@ def page(rows: list[Row]) -> str:
 
 `minimal_radii(strip, tolerance="{TOLERANCE}")` beside sampling at every
 vertex of the main curve: stations that each needs, CPU milliseconds for one area, division and
-triangulation included, and the ratio of the two times. The aim is a ratio of 2: a walk through
-every window that opens anywhere along a side costs more than one look from its ends.
+triangulation included, and the ratio of the two times. The aim is a ratio of 2.
+
+Along most sides a glance is enough: a search of the boxes next to the last answer, and one sight.
+Where that sight is blocked, P walks through every window that opens anywhere along the side, and
+that costs more than one look from its ends: in the star, behind whose spikes little is seen, many
+times more.
 
 Written by `python benchmarks/limit.py` on {machine_text()}.
 

@@ -283,7 +283,8 @@ def put(
         row[count, column] = row[k, column]
     for column in range(5):
         at[count, column] = at[k, column]
-    row[count, 10] = bound_distance(walk, row, count)
+    is_whole = k < base and a == row[k, 0] and b == row[k, 1]
+    row[count, 10] = row[k, 10] if is_whole else bound_distance(walk, row, count)
     return count + 1
 
 
