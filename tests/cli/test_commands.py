@@ -184,6 +184,23 @@ def test_columns_measure_the_line(midrib: Runner, tmp_path: Path) -> None:
     assert missing["length"] is None
 
 
+@pytest.mark.parametrize("options", [["--simplify", "5%"], ["--simplify", "5%", "--connect"]])
+def test_columns_of_simplified_lines_are_those_of_full_ones(
+    options: list[str], midrib: Runner, tmp_path: Path
+) -> None:
+    source = write(tmp_path / "in.gpkg", [STRIP, BENT])
+    rows = []
+    for name, given in (("full", []), ("simple", options)):
+        out = tmp_path / f"{name}.gpkg"
+        assert midrib("collapse", source, out, "--quiet", *given).code == 0
+        _, attributes, lines = read_all(out)
+        rows.append(attributes.to_pylist())
+    assert shapely.get_num_coordinates(lines[0]) == 2
+    for full, simple in zip(*rows, strict=True):
+        for column in ("width_mean", "width_max"):
+            assert simple[column] == pytest.approx(full[column], rel=0.03)
+
+
 def test_columns_that_are_taken_are_numbered_on() -> None:
     taken = pa.table({"length": [1], "Length_2": [2]})
     table = with_columns(taken, {"length": pa.array([3]), "status": pa.array(["ok"])})

@@ -33,6 +33,7 @@ __all__ = [
     "rings",
     "shaped",
     "step_vectors",
+    "subdivided",
     "unit_lengths",
     "vertices",
 ]
@@ -139,6 +140,24 @@ def step_vectors(points: "Floats", geographic: bool) -> "Floats":
         middle = (points[:-1, 1] + points[1:, 1]) / 2.0
         steps = steps * np.column_stack(lengths_at(middle))
     return steps
+
+
+def subdivided(chains: Chains, longest: "Floats", geographic: bool) -> Chains:
+    """Chains with points put in evenly, so that no segment is longer than told for its owner."""
+    length = np.hypot(*step_vectors(chains.points, geographic).T)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        count = np.ceil(length / longest[chains.owner[:-1]])
+    # NaN, without an area or a finite place, is one piece as it stands.
+    pieces = np.where(chains.goes_on & (count > 1.0) & np.isfinite(count), count, 1.0)
+    pieces = np.append(pieces, 1.0)[: len(chains.points)].astype(np.intp)
+    start = np.repeat(np.arange(pieces.size), pieces)
+    number = np.arange(start.size) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    points = chains.points[start]
+    steps = np.diff(chains.points, axis=0)
+    between = np.flatnonzero(number)
+    points[between] += (number / pieces[start])[between, None] * steps[start[between]]
+    goes_on = (start[:-1] == start[1:]) | np.append(chains.goes_on, np.False_)[start[:-1]]
+    return Chains(points, chains.owner[start], goes_on)
 
 
 def distances(points: "Floats", owner: "Ints", chains: Chains, unit: "Floats") -> "Floats":
