@@ -24,9 +24,15 @@ if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Geometries, Source
     from midrib.types import Floats, Ints
 
-__all__ = ["Results", "check_options", "collapse_layer", "joint_features"]
+__all__ = ["JOINT_COLUMNS", "Results", "check_options", "collapse_layer", "joint_features"]
 
 NO_GEOMETRY = "no geometry"
+JOINT_COLUMNS = {  # name, and which attribute of a joint it holds
+    "area": ("index", pa.int64()),
+    "other": ("other", pa.int64()),
+    "kind": ("kind", pa.string()),
+    "reason": ("reason", pa.string()),
+}
 
 
 @dataclass
@@ -116,10 +122,8 @@ def joint_features(joints: list[Joint]) -> "tuple[pa.Table, Geometries]":
     points = np.empty(len(joints), dtype=object)
     points[:] = [joint.point for joint in joints]
     columns = {
-        "area": pa.array([joint.index for joint in joints], type=pa.int64()),
-        "other": pa.array([joint.other for joint in joints], type=pa.int64()),
-        "kind": pa.array([joint.kind for joint in joints], type=pa.string()),
-        "reason": pa.array([joint.reason for joint in joints], type=pa.string()),
+        name: pa.array([getattr(joint, attribute) for joint in joints], type=kind)
+        for name, (attribute, kind) in JOINT_COLUMNS.items()
     }
     return pa.table(columns), points
 
