@@ -292,7 +292,8 @@ def straightened(plan: Plan, lines: Lines) -> Lines:
         for i, end in contact.chosen.items():
             if i in chains:
                 interrupts.check()
-                chains[i].unhook(end, plan.areas[i], contact.edge.points)
+                scale = plan.outlines[i].scale
+                chains[i].unhook(end, plan.areas[i], contact.edge.points, scale)
     return [chains[i].line() if i in chains else None for i in range(len(lines))]
 
 
@@ -378,7 +379,7 @@ def join_side(
     reason = "no way leads from it to the other line"
     if way is not None:
         end, point = contact.chosen[i], main.point_at(way)
-        side.go_on(end, way, point)
+        side.go_on(end, way, point, outlines[j].scale)
         if side.line().is_simple:
             main.pass_through(way, point)
             return Joined((i, j), "side", point[:2], "")
