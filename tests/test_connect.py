@@ -155,6 +155,19 @@ def test_a_crossing_takes_the_straight_way() -> None:
     assert {(5.0, 305.0)} == ends_of(lines[3]) & ends_of(lines[4])
 
 
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_line_does_not_turn_off_into_a_neighbour_that_ends_on_its_bank(side: float) -> None:
+    """As a path does that ends on all of the long side of a short strip."""
+    strip, path, onwards = box(0, 0, 2, 10), box(2, 1, 40, 10), box(0, 10, 2, 60)
+    areas = [scale(area, side, 1.0, origin=(0, 0)) for area in (strip, path, onwards)]
+    lines, joints = connected(areas)
+    made = {(joint.index, joint.other): joint.kind for joint in joints if joint.kind != "none"}
+    assert made == {(0, 2): "end to end", (1, 0): "side"}
+    assert ends_of(lines[0]) == {(side, 0.0), (side, 10.0)}
+    assert (side, 5.5) in ends_of(lines[1]) & set(lines[0].coords)
+    assert_inside(lines, areas)
+
+
 def test_there_is_no_joint_along_a_road_and_its_verge() -> None:
     road, verge = box(0, 0, 100, 8), box(0, 8, 100, 12)
     lines, joints = connected([road, verge])

@@ -135,11 +135,13 @@ def collapse(
     proposes: an edge that covers half a flat end or is half on it, or is within half a width of
     another end; unless the area reaches less than half as far from it as it is long. It also looks
     at edges within a width of its ends (three, if across) that are ends of its neighbours. Of
-    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by
-    bit. It is on the edge but for rounding, so that lines are covered by the areas of both. They
-    are simplified and smoothed as far as the edges, and keep their joints.
-    ``"report"`` adds a ``Joint`` for each shared edge, with the reason where there is none. Edges
-    are shared where boundaries are not farther apart than their coordinates are rounded.
+    several it takes those that are wide and far apart, but not an end together with the bank that
+    leads up to it. Lines then meet in the same vertex, bit by bit, and turn there as the areas do:
+    by 80 degrees and more where these meet at a corner or in an acute tip. The vertex is on the
+    edge but for rounding, so that lines are covered by the areas of both. They are simplified and
+    smoothed as far as the edges, and keep their joints. ``"report"`` adds a ``Joint`` for each
+    shared edge, with the reason where there is none. Edges are shared where boundaries are not
+    farther apart than their coordinates are rounded.
 
     Examples
     --------
