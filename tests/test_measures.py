@@ -53,7 +53,7 @@ def test_largest_width_sees_holes() -> None:
 def test_width_is_that_along_a_line_whatever_its_vertices(unit: float) -> None:
     area = scale(box(0, 0, 100, 2).union(box(48, -1, 52, 3)), unit, unit, origin=(0, 0))
     ends = np.array([(0, 1), (100, 1)]) * unit
-    straight, dense = LineString(ends), LineString(np.linspace(*ends, 10_001))
+    straight, dense = LineString(ends), LineString(np.linspace(ends[0], ends[1], 10_001))
     for geographic in (False, True):
         for measure, within in ((measures.mean_width, 0.01), (measures.largest_width, 0.25)):
             expected = measure(dense, area, geographic=geographic)

@@ -277,12 +277,14 @@ def test_methods_are_listed(midrib: Runner) -> None:
     assert "minimal-radii  Buczek 2017" in outcome.out
 
 
+@pytest.mark.parametrize("options", [[], ["--connect"]])
 @pytest.mark.parametrize("case", ["degenerate", "mixed"])
-def test_figures_are_drawn(case: str, midrib: Runner, tmp_path: Path) -> None:
+def test_figures_are_drawn(case: str, options: list[str], midrib: Runner, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     source = write(tmp_path / "in.gpkg", INPUTS[case][0])
     figure = tmp_path / "picture.svg"
-    assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
+    told = ["--figure", figure, *options]
+    assert midrib("collapse", source, tmp_path / "out.gpkg", *told).code == 1
     assert "<svg" in figure.read_text()
 
 
@@ -383,7 +385,7 @@ def test_joints_that_are_drawn_are_kept_with_a_note(midrib: Runner, tmp_path: Pa
     assert (tmp_path / "out_joints.dxf").exists()
 
 
-@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])
+@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"]])
 def test_connect_excludes_what_places_ends(
     option: list[str], midrib: Runner, tmp_path: Path
 ) -> None:

@@ -256,7 +256,7 @@ def collapse(
     from midrib.formats.units import length_in
 
     if connect:
-        check_alone(main=main, ends=ends, figure=figure)
+        check_alone(main=main, ends=ends)
     places = Places(source, out, figure, connect)
     places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
@@ -284,19 +284,16 @@ def collapse(
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
-            draw(features, guides, options, figure)
+            draw(features, guides, options | {"connect": connect}, figure)
     if results.n_refused:
         raise typer.Exit(1)
 
 
-def check_alone(*, main: str | None, ends: EndRule, figure: Path | None) -> None:
+def check_alone(*, main: str | None, ends: EndRule) -> None:
     """Refuse options that ``--connect`` cannot be given with."""
-    others = {"--main": main is not None, "--ends": ends is not EndRule.caps}
-    others["--figure"] = figure is not None
-    for name, is_given in others.items():
+    for name, is_given in {"--main": main is not None, "--ends": ends is not EndRule.caps}.items():
         if is_given:
-            reason = "a figure shows every area by itself" if figure else "joints place the ends"
-            msg = f"--connect excludes {name}: {reason}"
+            msg = f"--connect excludes {name}: joints place the ends"
             raise ParameterError(msg)
 
 

@@ -179,11 +179,12 @@ def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Pa
     """Draw the areas of a layer and what they collapse to in a file, whole or not at all."""
     batches = list(source.batches())
     unit = unit_of(source.crs)
+    along = np.concatenate([guides.of(batch)[0] for batch in batches])
     with staged(figure.parent) as easel:
         draw_collapse(
             np.concatenate([batch.geometries for batch in batches]),
             easel / figure.name,
-            along=np.concatenate([guides.of(batch)[0] for batch in batches]),
+            along=None if options.get("connect") else along,
             geographic=is_geographic(source.crs),
             unit=None if unit is None else unit.name,
             **options,

@@ -155,11 +155,7 @@ def collapse(
         raise ParameterError(msg)
     if geographic is not None:
         check_flag(geographic, "geographic")
-    check_flag(connect, "connect")
-    ends = options.get("ends", "caps")
-    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
-        msg = "connect places the ends of lines, give it without along and ends"
-        raise ParameterError(msg)
+    check_connect(connect, along, options.get("ends", "caps"))
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -179,6 +175,14 @@ def collapse(
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
     return result if on_error == "raise" else (result, log.problems)
+
+
+def check_connect(connect: Any, along: Any, ends: Any) -> None:
+    """Refuse other options that place ends beside ``connect``."""
+    check_flag(connect, "connect")
+    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
+        msg = "connect places the ends of lines, give it without along and ends"
+        raise ParameterError(msg)
 
 
 class Log:
@@ -284,11 +288,7 @@ def collapse_all(
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    if connect:
-        tended = connected_lines(parts, areas, find, geographic, log, care)
-    else:
-        full = lines_of(parts, find, along, geographic, log)
-        tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
+    tended = lines_of_parts(parts, areas, find, along, geographic, log, care, connect=connect)
     for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
@@ -297,6 +297,24 @@ def collapse_all(
             is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
             lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
     return lines
+
+
+def lines_of_parts(
+    parts: list[Part],
+    areas: "Areas",
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    care: Aftercare,
+    *,
+    connect: bool,
+) -> list[LineString | None]:
+    """Return the line of each part after its care, None where it was refused."""
+    if connect:
+        return connected_lines(parts, areas, find, geographic, log, care)
+    lines = lines_of(parts, find, along, geographic, log)
+    return tend(lines, [part.polygon for part in parts], care, geographic=geographic)
 
 
 def empty_like(area: Any) -> LineString | None:

@@ -227,8 +227,5 @@ def half_mean_widths(areas: Geometries, geographic: bool) -> "Floats":
 
 def sums(chains: Chains, steps: "Floats", count: int) -> "Floats":
     """Length of the chains of each owner."""
-    goes_on = chains.goes_on
-    total: Floats = np.bincount(
-        chains.owner[:-1][goes_on], np.hypot(*steps.T)[goes_on], minlength=count
-    )
-    return total
+    owner, along = chains.owner[:-1][chains.goes_on], np.hypot(*steps.T)[chains.goes_on]
+    return np.asarray(np.bincount(owner, along, minlength=count), dtype=np.float64)
