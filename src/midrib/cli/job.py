@@ -13,6 +13,7 @@ from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
 from midrib.formats.writing import free_name
+from midrib.measures.widths import mean_and_largest_width
 from midrib.profiles import add_widths, with_m
 from midrib.ragged import without_holes
 
@@ -164,10 +165,11 @@ def add_lines(
         areas = np.array([*map(without_holes, areas), None], dtype=object)[:-1]
     length = measures.length(lines, geographic=geographic)
     own = pieces_inside(lines, areas) if connect else lines
+    mean, largest = mean_and_largest_width(own, areas, geographic=geographic)
     columns = {
         "length": numbers(length),
-        "width_mean": numbers(measures.mean_width(own, areas, geographic=geographic)),
-        "width_max": numbers(measures.largest_width(own, areas, geographic=geographic)),
+        "width_mean": numbers(mean),
+        "width_max": numbers(largest),
         "status": pa.array([status[i] for i in rows], type=pa.string()),
     }
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))

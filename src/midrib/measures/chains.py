@@ -148,16 +148,17 @@ def subdivided(chains: Chains, longest: "Floats", geographic: bool) -> Chains:
     with np.errstate(invalid="ignore", divide="ignore"):
         count = np.ceil(length / longest[chains.owner[:-1]])
     # NaN, without an area or a finite place, is one piece as it stands.
-    pieces = np.where(chains.goes_on & (count > 1.0) & np.isfinite(count), count, 1.0)
-    pieces = np.append(pieces, 1.0)[: len(chains.points)].astype(np.intp)
-    start = np.repeat(np.arange(pieces.size), pieces)
-    number = np.arange(start.size) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    points = chains.points[start]
-    steps = np.diff(chains.points, axis=0)
-    between = np.flatnonzero(number)
-    points[between] += (number / pieces[start])[between, None] * steps[start[between]]
-    goes_on = (start[:-1] == start[1:]) | np.append(chains.goes_on, np.False_)[start[:-1]]
-    return Chains(points, chains.owner[start], goes_on)
+    is_cut = chains.goes_on & (count > 1.0) & np.isfinite(count)
+    pieces = np.append(np.where(is_cut, count, 1.0), 1.0)[: len(chains.points)].astype(np.intp)
+    step = np.zeros_like(chains.points)
+    step[:-1][is_cut] = np.diff(chains.points, axis=0)[is_cut] / count[is_cut, None]
+    first = np.cumsum(pieces) - pieces
+    number = np.arange(pieces.sum()) - np.repeat(first, pieces)
+    points = np.repeat(chains.points, pieces, axis=0)
+    points += number[:, None] * np.repeat(step, pieces, axis=0)
+    goes_on = np.ones(max(number.size - 1, 0), dtype=np.bool_)
+    goes_on[first[1:] - 1] = chains.goes_on
+    return Chains(points, np.repeat(chains.owner, pieces), goes_on)
 
 
 def distances(points: "Floats", owner: "Ints", chains: Chains, unit: "Floats") -> "Floats":

@@ -147,17 +147,7 @@ def mean_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
     >>> mean_width(LineString([(1, 1), (9, 1)]), box(0, 0, 10, 2))
     2.0
     """
-    flat_lines, flat_areas, like = flat_together(lines_of(lines, "lines"), areas_of(areas, "areas"))
-    chains = places_along(flat_lines, flat_areas, geographic)
-    points, owner, goes_on = chains
-    across = widths(chains, flat_areas, geographic)
-    steps = np.hypot(*step_vectors(points, geographic).T)[goes_on]
-    middle = ((across[:-1] + across[1:]) / 2.0)[goes_on]
-    feature = owner[:-1][goes_on]
-    total = np.bincount(feature, steps, minlength=flat_lines.size)
-    with np.errstate(invalid="ignore"):
-        mean = np.bincount(feature, steps * middle, minlength=flat_lines.size) / total
-    return shaped(np.where(is_there(flat_areas), mean, np.nan), like)
+    return mean_and_largest_width(lines, areas, geographic=geographic)[0]
 
 
 def largest_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
@@ -193,11 +183,24 @@ def largest_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
     >>> largest_width([LineString([(0, 1), (9, 1)]), None], box(0, 0, 9, 2))
     array([ 2., nan])
     """
+    return mean_and_largest_width(lines, areas, geographic=geographic)[1]
+
+
+def mean_and_largest_width(lines: Any, areas: Any, *, geographic: bool) -> tuple[Any, Any]:
+    """``mean_width`` and ``largest_width``, for the work of one."""
     flat_lines, flat_areas, like = flat_together(lines_of(lines, "lines"), areas_of(areas, "areas"))
     chains = places_along(flat_lines, flat_areas, geographic)
+    points, owner, goes_on = chains
+    across = widths(chains, flat_areas, geographic)
+    steps = np.hypot(*step_vectors(points, geographic).T)[goes_on]
+    middle = ((across[:-1] + across[1:]) / 2.0)[goes_on]
+    feature = owner[:-1][goes_on]
+    total = np.bincount(feature, steps, minlength=flat_lines.size)
+    with np.errstate(invalid="ignore"):
+        mean = np.bincount(feature, steps * middle, minlength=flat_lines.size) / total
     largest = np.full(flat_lines.size, np.nan)
-    np.fmax.at(largest, chains.owner, widths(chains, flat_areas, geographic))
-    return shaped(largest, like)
+    np.fmax.at(largest, owner, across)
+    return shaped(np.where(is_there(flat_areas), mean, np.nan), like), shaped(largest, like)
 
 
 def widths(chains: Chains, areas: Geometries, geographic: bool) -> "Floats":
