@@ -1,4 +1,5 @@
-# `make demo` and `make test` each set everything up in .venv first; PYTHON chooses the interpreter.
+# `make demo` and `make test` each set everything up in .venv first, and compile the kernels, which
+# later runs load; PYTHON chooses the interpreter.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
