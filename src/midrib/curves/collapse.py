@@ -18,6 +18,7 @@ from midrib.curves.methods import Finder, Found, finder_of
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
+    InvariantError,
     MidribError,
     ParameterError,
     RepairedAreaWarning,
@@ -437,6 +438,7 @@ def lines_of(
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
             found = find_between(find, joints, i, *packed.rings(i), guide, scale)
+            check_finite(found)
         except MidribError as error:
             log.refuse(part.area, part.number, error)
             continue
@@ -450,6 +452,13 @@ def lines_of(
             points = np.column_stack([points, found.height])
         lines[i] = shapely.linestrings(points)
     return lines
+
+
+def check_finite(found: Found) -> None:
+    """Refuse a line that tools would choke on."""
+    if not np.isfinite(found.points).all():
+        msg = "the line has a coordinate that is not finite, please report this area"
+        raise InvariantError(msg)
 
 
 def find_between(
