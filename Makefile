@@ -1,13 +1,16 @@
-# `make demo` and `make test` each set everything up in .venv first; PYTHON chooses the interpreter.
+# `make demo` and `make test` each set everything up in .venv first, and compile the kernels, which
+# later runs load; PYTHON chooses the interpreter.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+COMPILE := import midrib, shapely; midrib.collapse(shapely.box(0.0, 0.0, 3.0, 1.0))
 .PHONY: demo test lint bench quality dev lock clean
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -m venv --clear $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints.txt
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps --no-build-isolation -e .
+	$(BIN)/python -c "$(COMPILE)"
 	touch $@
 
 demo: $(VENV)/ready

@@ -15,6 +15,7 @@ from midrib import Joint, collapse, interrupts, split
 from midrib.curves.connecting import agreed_pairs, make_joints, plan_joints, straightened
 from midrib.curves.meeting import Chain, nearest_on
 from midrib.errors import ParameterError
+from midrib.geodesy import lengths_at
 from midrib.shared_edges import find_shared_edges, rounding_of
 
 Areas = NDArray[np.object_]
@@ -154,6 +155,19 @@ def test_a_crossing_takes_the_straight_way() -> None:
     assert {(5.0, 305.0)} == ends_of(lines[3]) & ends_of(lines[4])
 
 
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_line_does_not_turn_off_into_a_neighbour_that_ends_on_its_bank(side: float) -> None:
+    """As a path does that ends on all of the long side of a short strip."""
+    strip, path, onwards = box(0, 0, 2, 10), box(2, 1, 40, 10), box(0, 10, 2, 60)
+    areas = [scale(area, side, 1.0, origin=(0, 0)) for area in (strip, path, onwards)]
+    lines, joints = connected(areas)
+    made = {(joint.index, joint.other): joint.kind for joint in joints if joint.kind != "none"}
+    assert made == {(0, 2): "end to end", (1, 0): "side"}
+    assert ends_of(lines[0]) == {(side, 0.0), (side, 10.0)}
+    assert (side, 5.5) in ends_of(lines[1]) & set(lines[0].coords)
+    assert_inside(lines, areas)
+
+
 def test_there_is_no_joint_along_a_road_and_its_verge() -> None:
     road, verge = box(0, 0, 100, 8), box(0, 8, 100, 12)
     lines, joints = connected([road, verge])
@@ -246,6 +260,33 @@ def test_degrees_meet_too() -> None:
     assert len(ends_of(lines[2]) & set(lines[0].coords)) == 1
 
 
+@pytest.mark.parametrize("turn", [0.0, 40.0, 90.0])
+def test_joints_at_60_degrees_are_those_in_the_plane(turn: float) -> None:
+    """There a degree of longitude is half as long as one of latitude."""
+    street = [box(100, 500, 300, 508), box(140, 508, 146, 560), box(200, 460, 212, 500)]
+    narrower = [box(0, 600, 60, 612), box(60, 604, 100, 613)]
+    areas = np.array([*river(4, 60.0, 40, 5), *crossing(), *street, *narrower])
+    areas = shapely.transform(areas, lambda p: p @ turned(turn))
+    unit = np.array(lengths_at(np.array(60.0)))
+    degrees = shapely.transform(areas, lambda p: p / unit + (20.0, 60.0))
+    expected, in_plane = connected(areas)
+    lines, joints = connected(degrees, geographic=True)
+    back = shapely.transform(lines, lambda p: (p - (20.0, 60.0)) * unit)
+    assert [(j.index, j.other, j.kind) for j in joints] == [
+        (j.index, j.other, j.kind) for j in in_plane
+    ]
+    for one, two in zip(joints, in_plane, strict=True):
+        place = (np.array(one.point.coords[0]) - (20.0, 60.0)) * unit
+        assert place == pytest.approx(two.point.coords[0], abs=0.1)
+    assert shapely.hausdorff_distance(back, expected, densify=0.1).max() < 0.5
+
+
+def turned(degrees: float) -> NDArray[np.float64]:
+    """Matrix of a turn."""
+    x, y = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([(x, y), (-y, x)])
+
+
 def test_heights_meet_in_the_same_height() -> None:
     a = Polygon([(0, 0, 1), (30, 0, 4), (30, 6, 4), (0, 6, 1)])
     b = Polygon([(30, 0, 6), (60, 0, 9), (60, 6, 9), (30, 6, 6)])
@@ -321,7 +362,8 @@ def test_an_end_without_an_edge_keeps_its_cap() -> None:
 def test_a_hook_that_cannot_be_cut_stays() -> None:
     points = np.array([(0.0, 0.0), (0.0, 1.0), (3.0, 1.0), (3.0, -1.0), (1.0, -0.1), (1.0, 0.5)])
     chain = Chain(points.copy())
-    chain.unhook(0, box(-5, -5, 5, 5), np.array([(-2.0, 2.0), (0.0, 0.0), (2.0, -2.0)]))
+    edge = np.array([(-2.0, 2.0), (0.0, 0.0), (2.0, -2.0)])
+    chain.unhook(0, box(-5, -5, 5, 5), edge, (1.0, 1.0))
     assert (chain.points == points).all()
 
 
@@ -330,8 +372,17 @@ def test_bends_beside_a_long_oblique_edge_are_no_hooks() -> None:
     across, oblique = ([(-x, -10.0), (x, 10.0)] for x in (0.0, 100.0))
     for edge, count in ((across, 2), (oblique, 4)):
         chain = Chain(points.copy())
-        chain.unhook(0, box(-20, -20, 20, 20), np.array(edge))
+        chain.unhook(0, box(-20, -20, 20, 20), np.array(edge), (1.0, 1.0))
         assert len(chain.points) == count
+
+
+def test_hooks_are_measured_in_lengths_of_degrees() -> None:
+    points = np.array([(0.0, 0.0), (0.5, 0.0), (0.5, 0.8), (8.0, 0.8)])
+    edge = np.array([(0.0, -2.0), (0.0, 2.0)])
+    for unit in ((1.0, 1.0), (0.5, 1.0), (8.0, 1.0)):
+        chain = Chain(points / unit)
+        chain.unhook(0, box(-20, -20, 20, 20), edge / unit, unit)
+        assert (chain.points * unit == points[[0, 3]]).all()
 
 
 def test_ways_end_in_vertices_but_for_rounding() -> None:

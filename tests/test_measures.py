@@ -15,6 +15,7 @@ import midrib
 from midrib import add_widths, measures, profile
 from midrib.errors import GeometryTypeError, ParameterError
 from midrib.geodesy import degree_lengths
+from midrib.measures.widths import places_along
 
 RECTANGLE = box(0, 0, 10, 2)
 WITH_HOLE = Polygon(RECTANGLE.exterior.coords, [[(4, 0.5), (6, 0.5), (6, 1.0), (4, 1.0)]])
@@ -43,8 +44,30 @@ def test_mean_width_counts_stretches_by_their_length() -> None:
 
 
 def test_largest_width_sees_holes() -> None:
-    assert measures.largest_width(LineString([(5, 1), (5, 2)]), WITH_HOLE) == 0.0
-    assert measures.largest_width(LineString([(5, 1), (5, 2)]), RECTANGLE) == 2.0
+    across = LineString([(5, 1), (5, 2)])
+    assert measures.largest_width(across, WITH_HOLE) == 1.0
+    assert measures.largest_width(across, RECTANGLE) == 2.0
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-5])
+def test_width_is_that_along_a_line_whatever_its_vertices(unit: float) -> None:
+    area = scale(box(0, 0, 100, 2).union(box(48, -1, 52, 3)), unit, unit, origin=(0, 0))
+    ends = np.array([(0, 1), (100, 1)]) * unit
+    straight, dense = LineString(ends), LineString(np.linspace(ends[0], ends[1], 10_001))
+    for geographic in (False, True):
+        for measure, within in ((measures.mean_width, 0.01), (measures.largest_width, 0.25)):
+            expected = measure(dense, area, geographic=geographic)
+            found = measure(straight, area, geographic=geographic)
+            assert found == pytest.approx(expected, rel=within)
+    assert measures.largest_width(straight, area) > 3.0 * unit
+
+
+def test_places_along_lines_are_bounded_in_number() -> None:
+    line = LineString([(0, 0.5), (1e9, 0.5)])
+    flat = Polygon([(0, 0.5), (1e9, 0.5), (5, 0.5)])  # invalid: without an inside
+    for area in (box(0, 0, 1e9, 1), flat):
+        places = places_along(np.array([line]), np.array([area]), geographic=False)
+        assert 10_000 <= len(places.points) <= 10_002
 
 
 @given(line=lines, area=st.sampled_from(AREAS))

@@ -263,8 +263,11 @@ def test_turning_along_a_circle_is_width_over_radius(n: int) -> None:
     turn = np.linspace(0.0, 2.0 * np.pi, n + 1)
     circle = LineString(20.0 * np.column_stack([np.cos(turn), np.sin(turn)]))
     ring = Point(0, 0).buffer(21, quad_segs=256).difference(Point(0, 0).buffer(19, quad_segs=256))
-    expected = np.degrees(2.0 / 20.0) * (1.0 - 1.0 / n)  # the last vertex joins nothing
-    assert measures.turning(circle, ring) == pytest.approx(expected, rel=0.11 if n < 64 else 1e-2)
+    sagitta = 20.0 * (1.0 - np.cos(np.pi / n))  # two thirds of it is a chord off on average
+    width = 2.0 - 4.0 / 3.0 * sagitta
+    # The last vertex joins nothing.
+    expected = width * 360.0 * (1.0 - 1.0 / n) / (2.0 * n * 20.0 * np.sin(np.pi / n))
+    assert measures.turning(circle, ring) == pytest.approx(expected, rel=1e-2)
 
 
 def test_turning_is_blind_to_vertices_that_do_not_turn() -> None:

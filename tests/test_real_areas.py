@@ -3,6 +3,7 @@
 The layers are not part of the project; without the folder beside it these tests are skipped.
 """
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from numpy.typing import NDArray
+from shapely import LineString
 
 from midrib import collapse, profile
 
@@ -55,6 +57,9 @@ def areas_of(file: str, layer: str | None) -> Any:
     shapes = frame.geometry
     is_area = shapes.geom_type.isin(["Polygon", "MultiPolygon"])
     return shapes[is_area & (shapely.get_num_coordinates(shapes.to_numpy()) <= MOST_VERTICES)]
+
+
+LEAST_ELONGATION = 3.0
 
 
 def outside(lines: NDArray[np.object_], areas: NDArray[np.object_]) -> list[int]:
@@ -151,3 +156,48 @@ def test_rivers_pass_islands_by_every_rule() -> None:
         lines = collapse(areas, **options)
         assert outside(lines, areas) == []
         assert shapely.is_simple(lines).all()
+
+
+def test_slopes_end_where_the_register_says() -> None:
+    """Within a mean width (area over length) of the recorded ends of the top, nine times of ten."""
+    frame = geopandas.read_file(FOLDER / "pl_bdot500_opole_west.gpkg", layer="skarpa")
+    frame = frame[frame.is_valid & (elongation(frame.geometry.to_numpy()) >= LEAST_ELONGATION)]
+    assert len(frame) >= 120
+    areas = frame.geometry.to_numpy()
+    lines = collapse(areas)
+    recorded = [frame[[f"gora_{end}_x", f"gora_{end}_y"]] for end in ("start", "koniec")]
+    tops = shapely.linestrings(np.stack(recorded, axis=1))
+    off = np.stack(ends_apart(lines, tops))
+    width = shapely.area(areas) / shapely.length(lines)
+    assert np.mean(off <= width) >= 0.9
+
+
+def test_a_river_ends_in_its_two_mouths() -> None:
+    """Within a width of both ends of its banks, digitised one by one."""
+    file = FOLDER / "us_river_louisiana.gpkg"
+    (area,) = shapely.get_parts(geopandas.read_file(file, layer="polygon").geometry.to_numpy())
+    left, right = geopandas.read_file(file, layer="banks").geometry
+    mouths = LineString([np.mean([left.coords[i], right.coords[i]], axis=0) for i in (0, -1)])
+    width = [math.dist(left.coords[i], right.coords[i]) for i in (0, -1)]
+    assert (
+        np.concatenate(ends_apart(np.array([collapse(area)]), np.array([mouths]))) <= width
+    ).all()
+
+
+def elongation(areas: NDArray[np.object_]) -> NDArray[np.float64]:
+    """Length over width of the rectangles with the areas' perimeters and areas."""
+    quarter = shapely.length(areas) / 4.0
+    root = np.sqrt(np.maximum(quarter**2 - shapely.area(areas), 0.0))
+    return np.asarray((quarter + root) / (quarter - root))
+
+
+def ends_apart(
+    lines: NDArray[np.object_], others: NDArray[np.object_]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """How far starts and stops of others are from ends of lines, turned around if nearer."""
+    first, last = shapely.get_point(lines, 0), shapely.get_point(lines, -1)
+    start, stop = shapely.get_point(others, 0), shapely.get_point(others, -1)
+    along = shapely.distance(first, start), shapely.distance(last, stop)
+    against = shapely.distance(last, start), shapely.distance(first, stop)
+    is_along = sum(along) <= sum(against)
+    return np.where(is_along, along[0], against[0]), np.where(is_along, along[1], against[1])

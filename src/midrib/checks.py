@@ -1,5 +1,6 @@
 """What options are made of, and how a value looks in a message."""
 
+import sys
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,13 @@ LONGEST = 60  # characters of a value in a message
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is a real number, Python's or NumPy's; True and False are none."""
-    is_real = isinstance(value, int | float | np.integer | np.floating)
-    return is_real and not isinstance(value, bool)
+    """Whether a value is a real number, Python's or NumPy's; True and False are none.
+
+    Nor is an integer that no float comes near to.
+    """
+    if isinstance(value, bool) or not isinstance(value, int | float | np.integer | np.floating):
+        return False
+    return not isinstance(value, int) or abs(value) <= sys.float_info.max
 
 
 def check_flag(value: Any, name: str) -> None:

@@ -366,6 +366,7 @@ def far_from(line: LineString, other: LineString, near: float) -> "Floats | None
     """
     vertices = shapely.get_coordinates(line)
     points = np.concatenate([vertices, (vertices[1:] + vertices[:-1]) / 2.0])
+    other = shapely.force_2d(other)  # a copy: callers may share theirs among threads
     shapely.prepare(other)
     off = shapely.distance(shapely.points(points), other)
     worst = int(np.argmax(off))

@@ -12,6 +12,7 @@ from pyarrow import csv
 from midrib import measures
 from midrib.cli.app import app
 from midrib.cli.job import with_columns
+from midrib.formats.reading import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, crs_name, read_all, write
@@ -184,6 +185,24 @@ def test_columns_measure_the_line(midrib: Runner, tmp_path: Path) -> None:
     assert missing["length"] is None
 
 
+@pytest.mark.parametrize("options", [[], ["--connect"]])
+def test_columns_of_simplified_lines_are_those_of_full_ones(
+    options: list[str], midrib: Runner, tmp_path: Path
+) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    source, rows = write(tmp_path / "in.gpkg", [STRIP, onwards]), []
+    for name, given in {"full": [], "simple": ["--simplify", "5%"]}.items():
+        out = tmp_path / f"{name}.gpkg"
+        assert midrib("collapse", source, out, "--quiet", *options, *given).code == 0
+        _, attributes, lines = read_all(out)
+        rows.append(attributes.to_pylist())
+    assert shapely.get_num_coordinates(lines[0]) == 2
+    for full, simple in zip(*rows, strict=True):
+        for column in ("width_mean", "width_max"):
+            assert simple[column] == pytest.approx(full[column], rel=0.03)
+        assert simple["width_max"] == pytest.approx(20.0)
+
+
 def test_columns_that_are_taken_are_numbered_on() -> None:
     taken = pa.table({"length": [1], "Length_2": [2]})
     table = with_columns(taken, {"length": pa.array([3]), "status": pa.array(["ok"])})
@@ -258,12 +277,14 @@ def test_methods_are_listed(midrib: Runner) -> None:
     assert "minimal-radii  Buczek 2017" in outcome.out
 
 
+@pytest.mark.parametrize("options", [[], ["--connect"]])
 @pytest.mark.parametrize("case", ["degenerate", "mixed"])
-def test_figures_are_drawn(case: str, midrib: Runner, tmp_path: Path) -> None:
+def test_figures_are_drawn(case: str, options: list[str], midrib: Runner, tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     source = write(tmp_path / "in.gpkg", INPUTS[case][0])
     figure = tmp_path / "picture.svg"
-    assert midrib("collapse", source, tmp_path / "out.gpkg", "--figure", figure).code == 1
+    told = ["--figure", figure, *options]
+    assert midrib("collapse", source, tmp_path / "out.gpkg", *told).code == 1
     assert "<svg" in figure.read_text()
 
 
@@ -338,7 +359,33 @@ def test_a_file_of_others_in_the_place_for_joints_is_kept(midrib: Runner, tmp_pa
     assert other.read_bytes() == before
 
 
-@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"], ["--figure", "f.svg"]])
+@pytest.mark.parametrize("ending", ["parquet", "fgb", "shp", "geojson", "gpkg"])
+def test_lines_that_do_not_meet_leave_no_joints_of_an_earlier_run(
+    ending: str, midrib: Runner, tmp_path: Path
+) -> None:
+    onwards = "POLYGON ((90 0, 150 0, 150 20, 90 20, 90 0))"
+    source, out = write(tmp_path / "in.gpkg", [STRIP, onwards]), tmp_path / f"out.{ending}"
+    assert midrib("collapse", source, out).code == 0
+    plain = {path.name for path in tmp_path.iterdir()}
+    assert midrib("collapse", source, out, "--connect", "--overwrite").code == 0
+    joined = {path.name for path in tmp_path.iterdir()}
+    assert (plain == joined) == (ending == "gpkg")
+    assert midrib("collapse", source, out, "--spacing", "0", "--overwrite").code == 2
+    assert {path.name for path in tmp_path.iterdir()} == joined
+    assert midrib("collapse", source, out, "--overwrite").code == 0
+    assert {path.name for path in tmp_path.iterdir()} == plain
+    assert ending != "gpkg" or "some_joints" not in layer_names(out)
+
+
+def test_joints_that_are_drawn_are_kept_with_a_note(midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [STRIP]), tmp_path / "out.dxf"
+    assert midrib("collapse", source, out, "--connect").code == 0
+    outcome = midrib("collapse", source, out, "--overwrite")
+    assert "out_joints.dxf was there before, it is left as it was" in outcome.err
+    assert (tmp_path / "out_joints.dxf").exists()
+
+
+@pytest.mark.parametrize("option", [["--ends", "main"], ["--main", "x"]])
 def test_connect_excludes_what_places_ends(
     option: list[str], midrib: Runner, tmp_path: Path
 ) -> None:

@@ -101,11 +101,14 @@ def test_the_library_raises_between_areas_too(monkeypatch: pytest.MonkeyPatch) -
         return []
 
     monkeypatch.setattr("midrib.curves.collapse.valid_parts", press)
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    with pytest.raises(KeyboardInterrupt):
-        collapse([BOX, BOX])
-    assert seen == [interrupts.take_note]
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)  # in background it is ignored
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            collapse([BOX, BOX])
+        assert seen == [interrupts.take_note]
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, usual)
     monkeypatch.undo()
     assert collapse(BOX).length == 90.0
 

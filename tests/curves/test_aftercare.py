@@ -1,5 +1,6 @@
 """After-care: lines stay in their areas, keep their ends and do not meet themselves."""
 
+import threading
 from typing import Any
 
 import geopandas as gpd
@@ -226,3 +227,21 @@ def test_what_is_no_deviation_is_refused(simplify: Any) -> None:
 def test_smooth_is_yes_or_no() -> None:
     with pytest.raises(ParameterError, match="smooth is 3, expected True or False"):
         collapse(box(0, 0, 9, 2), smooth=3)  # type: ignore[arg-type]
+
+
+def test_threads_may_share_areas() -> None:
+    """Both prepared the same geometries, and each freed what the other was using."""
+    areas = [wavy_ribbon(400, 0.5) for _ in range(5)]
+    expected = collapse(areas, simplify="5%")
+    found: list[object] = []
+    threads = [
+        threading.Thread(target=lambda: found.append(collapse(areas, simplify="5%")))
+        for _ in range(8)
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all((lines == expected).all() for lines in found)
+    assert len(found) == 8
+    assert not shapely.is_prepared(areas).any()

@@ -7,6 +7,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from shapely import LineString, Polygon, box
+from shapely.affinity import rotate
 
 from midrib import Strip, collapse, measures, minimal_radii, split
 from midrib.types import Floats
@@ -125,3 +126,30 @@ def test_the_usual_call_is_the_construction_step_by_step(name: str) -> None:
         shapely.get_coordinates(collapse(area)), shapely.get_coordinates(curve.line)
     )
     assert curve.points.shape == curve.on_main.shape
+
+
+@pytest.mark.parametrize("degrees", range(0, 360, 15))
+def test_a_court_has_a_line_whatever_vertices_its_end_has(degrees: int) -> None:
+    """A vertex in the very middle of the side that the building faces is its middle, not a half."""
+    side, building = [(0, 0), (7, 0), (7, 2), (7, 4), (0, 4)], [(5, 1.5), (5, 2.5), (6, 2)]
+    area = rotate(Polygon(side, [building]), degrees, origin=(3, 1))
+    line = collapse(area)
+    assert np.isfinite(line.coords).all()
+    assert area.covers(line)
+    assert line.is_simple
+
+
+@pytest.mark.parametrize(
+    "area",
+    [
+        Polygon([(8, 8), (-6, 8), (-18, 5), (-15, 2), (-14, -4), (12, -6)]),
+        *(shape for name, shape in sorted(NAMED.items())),
+    ],
+)
+def test_lines_do_not_turn_back(area: Polygon) -> None:
+    """They had gone into a corner by an end and come back to 1e-8 of where they were."""
+    steps = np.diff(collapse(area).coords, axis=0)
+    angles = np.degrees(np.arctan2(steps[:, 1], steps[:, 0]))
+    turns = np.abs((np.diff(angles) + 180.0) % 360.0 - 180.0)
+    assert (turns < 170.0).all()
+    assert np.hypot(*steps.T).min() > 1e-6

@@ -74,6 +74,7 @@ def test_nearly_equal_stations_are_one() -> None:
         ({"spacing": 1.0, "count": 3}, "spacing and count exclude each other"),
         ({"count": 3, "percent": 5}, "count and percent exclude each other"),
         ({"spacing": 1.0, "count": 3, "percent": 5}, "spacing and count and percent exclude"),
+        ({"spacing": 10**400}, "spacing is 1000"),
         ({"spacing": 0.0}, "spacing is 0.0, expected a positive number"),
         ({"spacing": -1.0}, "spacing is -1.0, expected a positive number"),
         ({"spacing": np.nan}, "spacing is nan, expected a positive number"),

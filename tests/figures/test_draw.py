@@ -1,12 +1,15 @@
 """Pictures: everything asked for is on the sheet, to scale, and the same each time."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import shapely
 from shapely import MultiPolygon, Polygon, box
+from shapely.affinity import scale
 
+from midrib import collapse
 from midrib.errors import MissingDependencyError, ParameterError
 from tests.shapes import NOT_FINITE
 
@@ -34,6 +37,27 @@ def test_everything_is_in_the_legend() -> None:
         "auxiliary curve",
         "line",
     ]
+
+
+@pytest.mark.parametrize("options", [{}, {"simplify": "5%"}, {"geographic": True}])
+def test_connected_lines_are_drawn_with_dots_at_their_joints(options: dict[str, Any]) -> None:
+    areas = [STRIP, None, BOW_TIE, box(90, 0, 150, 20), box(40, -70, 50, 0)]
+    if "geographic" in options:
+        areas = [scale(area, 1e-4, 1e-4, origin=(0, 0)) if area else None for area in areas]
+    figure = draw_collapse(areas, connect=True, **options)
+    assert names(figure)[-2:] == ["line", "joint"]
+    lines, problems = collapse(areas, connect=True, on_error="report", **options)
+    drawn = figure.axes[0].collections[-1].get_segments()  # type: ignore[attr-defined]
+    for chain, line in zip(drawn, lines[[0, 3, 4]], strict=True):
+        assert chain == pytest.approx(shapely.get_coordinates(line), abs=1e-9)
+    joints = [p.point.coords[0] for p in problems if p.status == "joint"]
+    assert len(joints) == 2
+    assert figure.axes[0].lines[0].get_xydata() == pytest.approx(np.array(joints))
+
+
+def test_what_places_ends_is_not_drawn_connected() -> None:
+    with pytest.raises(ParameterError, match="connect places the ends"):
+        draw_collapse([STRIP], connect=True, ends="main")
 
 
 def test_thin_areas_are_drawn_as_their_line_only() -> None:

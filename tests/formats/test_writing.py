@@ -83,3 +83,9 @@ def test_existing_files_are_kept_unless_told_otherwise(tmp_path: Path) -> None:
 def test_missing_folders_are_named(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match="lies in a folder that does not exist"):
         check_free([tmp_path / "nowhere" / "lines.gpkg"], "OUT", overwrite=False)
+
+
+def test_folders_that_take_no_files_are_named(tmp_path: Path) -> None:
+    folder = tmp_path / "absent"
+    with pytest.raises(ParameterError, match=r"absent.*No such file"), staged(folder):
+        pass

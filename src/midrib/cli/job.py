@@ -13,6 +13,7 @@ from midrib.curves.collapse import Joint, Problem, collapse
 from midrib.curves.methods import finder_of
 from midrib.formats.units import is_geographic
 from midrib.formats.writing import free_name
+from midrib.measures.widths import mean_and_largest_width
 from midrib.profiles import add_widths, with_m
 from midrib.ragged import without_holes
 
@@ -24,9 +25,15 @@ if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Geometries, Source
     from midrib.types import Floats, Ints
 
-__all__ = ["Results", "check_options", "collapse_layer", "joint_features"]
+__all__ = ["JOINT_COLUMNS", "Results", "check_options", "collapse_layer", "joint_features"]
 
 NO_GEOMETRY = "no geometry"
+JOINT_COLUMNS = {  # name, and which attribute of a joint it holds
+    "area": ("index", pa.int64()),
+    "other": ("other", pa.int64()),
+    "kind": ("kind", pa.string()),
+    "reason": ("reason", pa.string()),
+}
 
 
 @dataclass
@@ -116,10 +123,8 @@ def joint_features(joints: list[Joint]) -> "tuple[pa.Table, Geometries]":
     points = np.empty(len(joints), dtype=object)
     points[:] = [joint.point for joint in joints]
     columns = {
-        "area": pa.array([joint.index for joint in joints], type=pa.int64()),
-        "other": pa.array([joint.other for joint in joints], type=pa.int64()),
-        "kind": pa.array([joint.kind for joint in joints], type=pa.string()),
-        "reason": pa.array([joint.reason for joint in joints], type=pa.string()),
+        name: pa.array([getattr(joint, attribute) for joint in joints], type=kind)
+        for name, (attribute, kind) in JOINT_COLUMNS.items()
     }
     return pa.table(columns), points
 
@@ -160,10 +165,11 @@ def add_lines(
         areas = np.array([*map(without_holes, areas), None], dtype=object)[:-1]
     length = measures.length(lines, geographic=geographic)
     own = pieces_inside(lines, areas) if connect else lines
+    mean, largest = mean_and_largest_width(own, areas, geographic=geographic)
     columns = {
         "length": numbers(length),
-        "width_mean": numbers(measures.mean_width(own, areas, geographic=geographic)),
-        "width_max": numbers(measures.largest_width(own, areas, geographic=geographic)),
+        "width_mean": numbers(mean),
+        "width_max": numbers(largest),
         "status": pa.array([status[i] for i in rows], type=pa.string()),
     }
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import pyarrow as pa
 
-from midrib.cli.job import joint_features
+from midrib.cli.job import JOINT_COLUMNS, joint_features
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
@@ -62,9 +62,23 @@ class Places(NamedTuple):
 
     @property
     def all(self) -> list[Path]:
-        """Every file for features that a run may write, OUT first, each once."""
-        joints = [self.joints] if self.connect else []
+        """Every file for features that a run may write or remove, OUT first, each once."""
+        joints = [self.joints] if self.connect or self.has_old_joints else []
         return [*dict.fromkeys([self.out, *self.all_refused.values(), *joints])]
+
+    @property
+    def stale(self) -> list[Path]:
+        """Files of an earlier run that go away, unless this one writes them again."""
+        # A drawing does not tell whether an earlier run has made it: it stays.
+        return [] if format_of(self.out).is_drawing else self.all[1:]
+
+    @property
+    def has_old_joints(self) -> bool:
+        """Whether joints of an earlier run are in a file of their own."""
+        path = self.joints
+        if path == self.out or not path.exists() or format_of(path).is_drawing:
+            return False
+        return {*JOINT_COLUMNS} <= {*column_names(path)}
 
     @property
     def all_refused(self) -> dict[str, Path]:
@@ -123,9 +137,7 @@ class Places(NamedTuple):
             LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
-        # A drawing does not tell whether an earlier run has made it: it stays.
-        stale = [] if format_of(self.out).is_drawing else self.all[1:]
-        with staged(self.out.parent, stale=stale) as stage:
+        with staged(self.out.parent, stale=self.stale) as stage:
             notes, where = write_layer(stage / self.out.name, lines), []
             if results.n_refused:
                 refused = lines._replace(
@@ -146,8 +158,9 @@ class Places(NamedTuple):
                     layer=f"{layer}_joints", attributes=table, geometries=points, kind="Point"
                 )
                 notes += write_layer(stage / self.joints.name, joints)
-        if format_of(self.out).is_drawing and not where and self.refused.exists():
-            notes.append(f"{self.refused} was there before, it is left as it was")
+        if format_of(self.out).is_drawing:
+            kept = [self.refused] * (not where) + [self.joints] * (not self.connect)
+            notes += [f"{p} was there before, it is left as it was" for p in kept if p.exists()]
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
         report.say(summary(results, report.elapsed))
@@ -166,11 +179,12 @@ def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Pa
     """Draw the areas of a layer and what they collapse to in a file, whole or not at all."""
     batches = list(source.batches())
     unit = unit_of(source.crs)
+    along = np.concatenate([guides.of(batch)[0] for batch in batches])
     with staged(figure.parent) as easel:
         draw_collapse(
             np.concatenate([batch.geometries for batch in batches]),
             easel / figure.name,
-            along=np.concatenate([guides.of(batch)[0] for batch in batches]),
+            along=None if options.get("connect") else along,
             geographic=is_geographic(source.crs),
             unit=None if unit is None else unit.name,
             **options,

@@ -142,7 +142,7 @@ def add_refused(table: Table, batch: "Batch", refused: dict[int, str]) -> None:
 def write_table(table: Table, places: "Places", layer: str, report: "Report") -> None:
     """Write everything, whole or not at all; then sum up."""
     out, figure = places.out, places.figure
-    with staged(out.parent, stale=[places.refused]) as stage:
+    with staged(out.parent, stale=places.stale) as stage:
         notes = write_rows(stage / out.name, rows_of(table, layer))
         if table.n_refused:
             reasons = pa.concat_tables(table.refused)

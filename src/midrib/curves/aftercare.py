@@ -112,15 +112,13 @@ def tend(
     if not there or not care.is_wanted:
         return lines
     chains = chains_of(object_array([lines[i] for i in there]), areas, there, geographic)
-    prepared = chains.areas[~shapely.is_prepared(chains.areas)]
-    shapely.prepare(prepared)
+    shapely.prepare(chains.areas)
     if care.max_deviation is not None or care.share is not None:
         chains = proven(simplified(chains, deviations(chains, care)), chains)
     if care.smooth:
         boundaries = boundaries_of(chains)
         for _ in range(ROUNDS):
             chains = proven(with_corners_cut(chains, boundaries), chains)
-    shapely.destroy_prepared(prepared)
     tended = list(lines)
     for i, line in zip(there, chains.lines(), strict=True):
         tended[i] = line
@@ -169,7 +167,8 @@ def chains_of(
     lines: Geometries, areas: list[BaseGeometry], there: list[int], geographic: bool
 ) -> Chains:
     """Vertices of lines that are there, with the areas they are in."""
-    inside = object_array([areas[i] for i in there])
+    # Copies, since they will be prepared: callers may share theirs among threads.
+    inside: Geometries = shapely.force_2d(object_array([areas[i] for i in there]))
     points, line = shapely.get_coordinates(lines, include_z=True, return_index=True)
     scale = np.ones((lines.size, 2))
     if geographic:

@@ -18,6 +18,7 @@ from midrib.curves.methods import Finder, Found, finder_of
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
+    InvariantError,
     MidribError,
     ParameterError,
     RepairedAreaWarning,
@@ -135,11 +136,13 @@ def collapse(
     proposes: an edge that covers half a flat end or is half on it, or is within half a width of
     another end; unless the area reaches less than half as far from it as it is long. It also looks
     at edges within a width of its ends (three, if across) that are ends of its neighbours. Of
-    several it takes those that are wide and far apart. Lines then meet in the same vertex, bit by
-    bit. It is on the edge but for rounding, so that lines are covered by the areas of both. They
-    are simplified and smoothed as far as the edges, and keep their joints.
-    ``"report"`` adds a ``Joint`` for each shared edge, with the reason where there is none. Edges
-    are shared where boundaries are not farther apart than their coordinates are rounded.
+    several it takes those that are wide and far apart, but not an end together with the bank that
+    leads up to it. Lines then meet in the same vertex, bit by bit, and turn there as the areas do:
+    by 80 degrees and more where these meet at a corner or in an acute tip. The vertex is on the
+    edge but for rounding, so that lines are covered by the areas of both. They are simplified and
+    smoothed as far as the edges, and keep their joints. ``"report"`` adds a ``Joint`` for each
+    shared edge, with the reason where there is none. Edges are shared where boundaries are not
+    farther apart than their coordinates are rounded.
 
     Examples
     --------
@@ -153,11 +156,7 @@ def collapse(
         raise ParameterError(msg)
     if geographic is not None:
         check_flag(geographic, "geographic")
-    check_flag(connect, "connect")
-    ends = options.get("ends", "caps")
-    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
-        msg = "connect places the ends of lines, give it without along and ends"
-        raise ParameterError(msg)
+    check_connect(connect, along, options.get("ends", "caps"))
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
     series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
     labels: Sequence[Any] | None = None
@@ -177,6 +176,14 @@ def collapse(
     if series is not None:
         result = type(series)(lines, index=series.index, crs=series.crs)
     return result if on_error == "raise" else (result, log.problems)
+
+
+def check_connect(connect: Any, along: Any, ends: Any) -> None:
+    """Refuse other options that place ends beside ``connect``."""
+    check_flag(connect, "connect")
+    if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
+        msg = "connect places the ends of lines, give it without along and ends"
+        raise ParameterError(msg)
 
 
 class Log:
@@ -282,11 +289,7 @@ def collapse_all(
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    if connect:
-        tended = connected_lines(parts, areas, find, geographic, log, care)
-    else:
-        full = lines_of(parts, find, along, geographic, log)
-        tended = tend(full, [part.polygon for part in parts], care, geographic=geographic)
+    tended = lines_of_parts(parts, areas, find, along, geographic, log, care, connect=connect)
     for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
@@ -295,6 +298,24 @@ def collapse_all(
             is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
             lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
     return lines
+
+
+def lines_of_parts(
+    parts: list[Part],
+    areas: "Areas",
+    find: Finder,
+    along: "Areas | None",
+    geographic: bool,
+    log: Log,
+    care: Aftercare,
+    *,
+    connect: bool,
+) -> list[LineString | None]:
+    """Return the line of each part after its care, None where it was refused."""
+    if connect:
+        return connected_lines(parts, areas, find, geographic, log, care)
+    lines = lines_of(parts, find, along, geographic, log)
+    return tend(lines, [part.polygon for part in parts], care, geographic=geographic)
 
 
 def empty_like(area: Any) -> LineString | None:
@@ -417,6 +438,7 @@ def lines_of(
         try:
             scale = PLANE if bounds is None else degree_lengths(bounds[i])
             found = find_between(find, joints, i, *packed.rings(i), guide, scale)
+            check_finite(found)
         except MidribError as error:
             log.refuse(part.area, part.number, error)
             continue
@@ -430,6 +452,13 @@ def lines_of(
             points = np.column_stack([points, found.height])
         lines[i] = shapely.linestrings(points)
     return lines
+
+
+def check_finite(found: Found) -> None:
+    """Refuse a line that tools would choke on."""
+    if not np.isfinite(found.points).all():
+        msg = "the line has a coordinate that is not finite, please report this area"
+        raise InvariantError(msg)
 
 
 def find_between(

@@ -207,13 +207,13 @@ def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pai
 
     Far apart, so that the line goes straight on through a junction; long, up to the area's width,
     so that it follows the wide arm where narrow ones meet it. An edge that is not at an end of the
-    area itself counts less.
+    area itself counts less, and a bank of the area does not go with the end that it leads up to.
     """
     best: Pair = (None, None)
     most = (0, 0.0)
     for first in (*candidates[0], None):
         for second in (*candidates[1], None):
-            if first is second:
+            if first is second or is_bank_of(i, outline, first, second):
                 continue
             places = [
                 outline.middle(end) if contact is None else contact.middle
@@ -227,6 +227,17 @@ def widest_way(i: int, outline: Outline, candidates: list[list[Contact]]) -> Pai
             if value > most:
                 best, most = (first, second), value
     return best
+
+
+def is_bank_of(i: int, outline: Outline, first: Contact | None, second: Contact | None) -> bool:
+    """Whether one of two edges is a bank of the area, right up to the other.
+
+    A neighbour's end on such a bank is joined from the side.
+    """
+    if first is None or second is None:
+        return False
+    a, b = first.stretch[i], second.stretch[i]
+    return outline.is_bank_up_to(a, b) or outline.is_bank_up_to(b, a)
 
 
 def with_opposite(i: int, outline: Outline, pair: Pair, edges: list[Contact]) -> Pair:
@@ -292,7 +303,8 @@ def straightened(plan: Plan, lines: Lines) -> Lines:
         for i, end in contact.chosen.items():
             if i in chains:
                 interrupts.check()
-                chains[i].unhook(end, plan.areas[i], contact.edge.points)
+                scale = plan.outlines[i].scale
+                chains[i].unhook(end, plan.areas[i], contact.edge.points, scale)
     return [chains[i].line() if i in chains else None for i in range(len(lines))]
 
 
@@ -378,7 +390,7 @@ def join_side(
     reason = "no way leads from it to the other line"
     if way is not None:
         end, point = contact.chosen[i], main.point_at(way)
-        side.go_on(end, way, point)
+        side.go_on(end, way, point, outlines[j].scale)
         if side.line().is_simple:
             main.pass_through(way, point)
             return Joined((i, j), "side", point[:2], "")

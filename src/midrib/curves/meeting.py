@@ -16,6 +16,7 @@ from shapely import LineString, Polygon
 
 from midrib.curves.outlines import Outline
 from midrib.kernels.paths import Beads, join_points
+from midrib.layout import Scale
 from midrib.types import Floats
 
 __all__ = ["ROUNDING", "Chain", "Way", "way_to_chain"]
@@ -51,7 +52,7 @@ class Chain:
         """Move an end to a point, which it is but for rounding."""
         self.points[-end, : point.size] = point
 
-    def unhook(self, end: int, area: Polygon, edge: Floats) -> None:
+    def unhook(self, end: int, area: Polygon, edge: Floats, scale: Scale) -> None:
         """Straighten a line that turns sharply near an end, if the area allows it.
 
         Where an edge is a part of a cap, the last radius crosses in the middle of the cap. Near is
@@ -59,7 +60,7 @@ class Chain:
         obliquely across the area is wider than the area.
         """
         points = self.points if end == 0 else self.points[::-1]
-        plane = points[:, :2]
+        plane, edge = points[:, :2] * scale, edge * scale
         far = np.hypot(*(plane - plane[0]).T)
         k = int(np.argmax(far > np.hypot(*(edge - plane[0]).T).max()))
         if k:
@@ -70,7 +71,7 @@ class Chain:
         steps = np.diff(plane[: k + 1], axis=0)
         steps /= np.hypot(*steps.T)[:, None]
         is_sharp = (steps[1:] * steps[:-1]).sum(axis=1) < SHARP
-        if is_sharp.any() and area.covers(LineString(plane[[0, k]])):
+        if is_sharp.any() and area.covers(LineString(points[[0, k], :2])):
             points = np.delete(points, np.arange(1, k), axis=0)
             if LineString(points).is_simple:
                 self.points = points if end == 0 else points[::-1]
@@ -90,7 +91,7 @@ class Chain:
         if way.share not in (0.0, 1.0):
             self.passed.append((way.segment, way.share, point))
 
-    def go_on(self, end: int, way: Way, last: Floats) -> None:
+    def go_on(self, end: int, way: Way, last: Floats, scale: Scale) -> None:
         """Go on from an end by a way to the point ``last``, rising evenly."""
         if len(way.points) == 1:
             self.put_end(end, last[:2])
@@ -98,7 +99,7 @@ class Chain:
         points = way.points[1:].copy()
         points[-1] = last[:2]
         if self.points.shape[1] > 2:
-            steps = np.cumsum(np.hypot(*np.diff(way.points, axis=0).T))
+            steps = np.cumsum(np.hypot(*(np.diff(way.points, axis=0) * scale).T))
             to = last[2] if last.size > 2 else np.nan
             z = self.points[-end, 2]
             points = np.column_stack([points, z + (to - z) * steps / steps[-1]])

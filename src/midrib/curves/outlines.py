@@ -23,6 +23,7 @@ __all__ = ["Outline", "Stretch"]
 HALF = 0.5
 # Widths from an end within which an edge may take it over if it is an end of the neighbour's.
 NEAR, NEAR_IF_ACROSS = 1.0, 3.0
+SAME_CORNER = 2.0**-4  # of the way across the area: so near, two edges meet at one corner
 LEAST_TURN = np.pi / 2.0
 
 
@@ -88,7 +89,23 @@ class Outline:
             is_on = self.common(edge, end) >= HALF * min(cap, edge.length)
         else:
             is_on = self.gap(edge, end) <= HALF * self.width
-        return is_on and self.depth(edge) >= HALF * edge.length
+        return is_on and not self.is_along(edge)
+
+    def is_along(self, edge: Stretch) -> bool:
+        """Whether the area reaches less than half as far from an edge as that is long."""
+        return self.depth(edge) < HALF * edge.length
+
+    def is_bank_up_to(self, edge: Stretch, other: Stretch) -> bool:
+        """Whether an edge runs along the area up to a corner at which another, across it, begins.
+
+        +---------------+
+        |               | other      A line from the one to the other would turn off at once.
+        +=====edge======+
+        """
+        if not self.is_along(edge) or self.is_along(other):
+            return False
+        between = self.gap(edge, End(other.place, other.other))
+        return between <= SAME_CORNER * self.depth(edge)
 
     def depth(self, edge: Stretch) -> float:
         """How far the area reaches from the straight line between the two ends of an edge."""

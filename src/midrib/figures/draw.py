@@ -13,15 +13,14 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiPolygon, Polygon
 
-from midrib.curves.collapse import as_array
+from midrib.curves.collapse import as_array, check_connect
 from midrib.errors import MissingDependencyError, ParameterError
-from midrib.figures.curves import curves_of
+from midrib.figures.curves import Sketch, curves_of
 from midrib.figures.paper import Paper, sheet_for
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from midrib.curves.minimal_radii import Curve
     from midrib.formats.reading import Geometries
     from midrib.types import Floats
 
@@ -30,11 +29,13 @@ __all__ = ["check_figure", "draw_collapse"]
 ENDINGS = (".svg", ".png", ".pdf")
 FILL, OUTLINE, REFUSED = "#eef1ea", "#b9c0b0", "#f6dfc9"
 MAIN, AUXILIARY, RADIUS, LINE = "#d62728", "#1f5fbf", "#8e44ad", "#000000"
+JOINT = "#1e9e58"
 # Sizes on paper in millimetres.
 TWO_SIDES = 0.7  # narrowest area whose sides are told apart
 RADII = 1.5  # shortest radii worth drawing
 APART = 0.45  # between neighbouring radii
 LINE_WIDTH = (0.08, 0.4)  # a seventh of the area's width, between these
+DOT = 2.5  # a joint's diameter, in widths of the widest line
 
 
 @dataclass
@@ -60,6 +61,8 @@ def draw_collapse(
 ) -> "Figure":
     """Draw areas with their main and auxiliary curves, radii and the curve of minimal radii.
 
+    Where lines are connected, joints are dots.
+
     Parameters
     ----------
     areas : Polygon, MultiPolygon or array_like of them
@@ -76,7 +79,7 @@ def draw_collapse(
     width : float, default 240
         Width of the sheet in millimetres, or its height where the areas extend further in y.
     **options
-        Those of ``midrib.collapse``.
+        Those of ``midrib.collapse``, ``connect`` among them.
 
     Returns
     -------
@@ -87,17 +90,19 @@ def draw_collapse(
     MissingDependencyError
         If matplotlib is not installed.
     ParameterError
-        If the file has another ending.
+        If the file has another ending, or options exclude each other.
     """
     if path is not None:
         check_figure(Path(path))
+    check_connect(options.get("connect", False), along, options.get("ends", "caps"))
     areas = drawable(as_array(areas).ravel())
     guides = None if along is None else as_array(along).ravel()
     paper = sheet_for(areas, geographic, width)
     strokes, drawn = Strokes(), np.zeros(areas.size, dtype=np.bool_)
-    for index, curve, line in curves_of(areas, guides, geographic, options):
+    curves, joints = curves_of(areas, guides, geographic, options)
+    for index, sketch, line in curves:
         drawn[index] = True
-        add_strokes(strokes, curve, line, paper)
+        add_strokes(strokes, sketch, line, paper)
     paper.fill(areas[drawn], FILL, OUTLINE, "area")
     paper.fill(areas[~drawn], REFUSED, OUTLINE, "refused")
     paper.stroke(strokes.radii, RADIUS, 0.12, "radii")
@@ -105,6 +110,8 @@ def draw_collapse(
     paper.stroke(strokes.auxiliary, AUXILIARY, 0.25, "auxiliary curve")
     bold = np.clip(0.15 * np.array(strokes.widths), *LINE_WIDTH)
     paper.stroke(strokes.line, LINE, bold, "line")
+    dots = np.array([joint.point.coords[0] for joint in joints]).reshape(-1, 2)
+    paper.dot(dots, JOINT, DOT * bold.max(initial=LINE_WIDTH[0]), "joint")
     paper.finish(unit)
     if path is not None:
         paper.save(Path(path))
@@ -121,19 +128,19 @@ def drawable(features: "Geometries") -> "Geometries":
     return areas
 
 
-def add_strokes(strokes: Strokes, curve: "Curve", line: LineString, paper: Paper) -> None:
-    """Add what of a curve and its line can be told apart on paper."""
+def add_strokes(strokes: Strokes, sketch: Sketch, line: LineString, paper: Paper) -> None:
+    """Add what of a sketch and its line can be told apart on paper."""
     strokes.line.append(shapely.get_coordinates(line))
-    span = np.stack([curve.on_main, curve.on_auxiliary], axis=1)
-    across = paper.millimetres(span[:, 1] - span[:, 0])
+    across = paper.millimetres(sketch.radii[:, 1] - sketch.radii[:, 0])
     across_middle = float(np.median(across))
     strokes.widths.append(across_middle)
     if across_middle < TWO_SIDES:
         return
-    strokes.main.append(shapely.get_coordinates(curve.strip.main))
-    strokes.auxiliary.append(shapely.get_coordinates(curve.strip.auxiliary))
+    strokes.main.append(sketch.main)
+    strokes.auxiliary.append(sketch.auxiliary)
     if across_middle >= RADII:
-        strokes.radii.extend(span[spread(paper.millimetres(curve.points[1:] - curve.points[:-1]))])
+        apart = paper.millimetres(np.diff(sketch.middles, axis=0))
+        strokes.radii.extend(sketch.radii[spread(apart)])
 
 
 def spread(steps: "Floats") -> "Floats":

@@ -68,6 +68,14 @@ class Paper(NamedTuple):
             self.axes.add_collection(lines)
             self.legend[name] = Line2D([], [], color=colour, lw=np.max(points), label=name)
 
+    def dot(self, points: "Floats", colour: str, diameter: float, name: str) -> None:
+        """Draw dots at points (n, 2), ``diameter`` in millimetres."""
+        if len(points):
+            style: dict[str, Any] = {"color": colour, "marker": "o", "ls": "none", "mew": 0.0}
+            style["ms"] = diameter / POINT
+            (dots,) = self.axes.plot(*points.T, scalex=False, scaley=False, label=name, **style)
+            self.legend[name] = dots
+
     def finish(self, unit: str | None) -> None:
         """Add the legend and the scale bar."""
         width, height = self.figure.get_size_inches() * INCH

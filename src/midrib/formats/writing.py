@@ -103,7 +103,12 @@ def staged(folder: Path, stale: Sequence[Path] = ()) -> Iterator[Path]:
     The files ``stale`` go away then, unless they are replaced. After an error or an interrupt
     nothing has moved and the temporary folder is gone.
     """
-    with TemporaryDirectory(dir=folder, prefix=".midrib-") as name, interrupts.rubbish(name):
+    try:
+        place = TemporaryDirectory(dir=folder, prefix=".midrib-")
+    except OSError as error:
+        msg = f"nothing can be written into the folder {str(folder)!r}: {error.strerror}"
+        raise ParameterError(msg) from error
+    with place as name, interrupts.rubbish(name):
         stage = Path(name) / "new"
         stage.mkdir()
         yield stage

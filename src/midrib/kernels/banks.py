@@ -42,6 +42,7 @@ LEVEL = 2.0**-42  # of the width: less lean than this is rounding
 ROUNDS = 64  # bisection alone needs 53
 STEPS = 24
 SAFE = 0.875  # of the distance to the nearer bank
+AT_WALL = 2.0**-20  # of the distance to the farther one: a point that is as near is on a wall
 FEW = 24  # segments are looked through one by one; more are searched by their boxes
 MANY = 2**62
 
@@ -256,7 +257,9 @@ def level_from(banks: Banks, lean: Lean, x: float, y: float) -> tuple[bool, floa
         if is_level(lean, banks.slack):
             return True, x, y
         ux, uy, step = way_to_level(lean, x, y)
-        step = min(step, SAFE * min(lean.to_main, lean.to_auxiliary))
+        near, far = min(lean.to_main, lean.to_auxiliary), max(lean.to_main, lean.to_auxiliary)
+        # From a wall itself there is no safe step; whether the way leaves the area, walks tell.
+        step = min(step, SAFE * near if near > AT_WALL * far else far / 2.0)
         px, py, was = x, y, lean.value
         x, y = x + step * ux, y + step * uy
         lean = lean_at(banks, x, y)

@@ -32,6 +32,8 @@ from midrib.types import Bools, Floats, Ints
 __all__ = ["Loops", "distance_to_side", "has_islands", "loops_of", "no_loops", "side_length"]
 
 NOBODY, MAIN, AUXILIARY = 0, 1, 2
+HALF = 0.5
+SAME = 2.0**-20  # of a side: a middle that is no farther from its end than this is its end
 INTO = 2.0**-10  # of a side: how far inside its corner an island is looked at
 
 
@@ -160,15 +162,16 @@ def walls_of_caps(
             a, b = mesh.tri[e], mesh.tri[next_side(e)]
             x0, y0, x1, y1 = mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b]
             step = side_length(mesh, e, scale_x, scale_y)
-            if so_far < half <= so_far + step:
-                share = (half - so_far) / step
+            share = (half - so_far) / step
+            if SAME < share < 1.0 - SAME:
                 mx, my = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
                 wall[count, 0], wall[count, 1], wall[count, 2], wall[count, 3] = x0, y0, mx, my
                 is_main[count], of[count] = k == 0, k
-                count, x0, y0 = count + 1, mx, my
-                so_far = half
+                count, x0, y0, share = count + 1, mx, my, 0.0
+            elif SAME >= share > -SAME:
+                mx, my = x0, y0
             wall[count, 0], wall[count, 1], wall[count, 2], wall[count, 3] = x0, y0, x1, y1
-            is_main[count], of[count] = (k == 0) == (so_far < half), k
+            is_main[count], of[count] = (k == 0) == (share > HALF), k
             so_far += step
             count += 1
         if not is_faced(mesh, is_inner, mx, my, half, scale_x, scale_y):

@@ -26,7 +26,7 @@ from midrib.types import Floats, Ints
 __all__ = ["land", "take_off"]
 
 HALVINGS = 48
-SAME = 2.0**-20  # of a piece of a cap: an end that is no farther from it than this is on it
+ON_CAP = 2.0**-19  # of a piece of a cap: an end that is no farther from it than this is on it
 ROUNDING = 2.0**-30  # of a radius
 BEYOND = 2.0**-10  # of the way to a landing: as far on, the island is clearly nearer
 
@@ -77,7 +77,7 @@ def land(
         for i in range(2):
             bead = i * last
             px, py = beads.point[bead, 0], beads.point[bead, 1]
-            if length(px * scale_x - x0, py * scale_y - y0) > SAME * span:
+            if length(px * scale_x - x0, py * scale_y - y0) > ON_CAP * span:
                 continue
             x, y = x / scale_x, y / scale_y
             _, obstacle = walk(mesh, beads.side[bead] // 3, -1, px, py, x, y)
@@ -164,11 +164,14 @@ def take_off(path: Floats, source: Ints, beads: Beads, before: Floats) -> tuple[
     first = int(is_before[0])
     size = n + first + int(is_before[1])
     longer, longer_source = np.empty((size, 2)), np.empty(size, np.intp)
-    longer[first : first + n], longer_source[first : first + n] = path, source
+    for k in range(n):
+        longer[first + k, 0], longer[first + k, 1] = path[k, 0], path[k, 1]
+        longer_source[first + k] = source[k]
     for i in range(2):
         if is_before[i]:
             row, bead = i * (size - 1), i * last
             longer_source[row + (1 if i == 0 else -1)] = last + 1
-            longer[row], longer_source[row] = before[i], bead
-            beads.point[bead] = before[i]
+            x, y = before[i, 0], before[i, 1]
+            longer[row, 0], longer[row, 1], longer_source[row] = x, y, bead
+            beads.point[bead, 0], beads.point[bead, 1] = x, y
     return longer, longer_source

@@ -143,7 +143,8 @@ def taken_apart(mesh: Mesh) -> tuple[Mesh, Ints]:
             fans += 1
             door = mesh.other_door[door]
     tri, origin = mesh.tri.copy(), np.empty(n + fans, np.intp)
-    origin[:n] = np.arange(n)
+    for v in range(n):
+        origin[v] = v
     count = n
     for v in range(n):
         door = mesh.other_door[mesh.door[v]] if mesh.door[v] >= 0 else -1

@@ -57,6 +57,7 @@ SHARE_OF_SLACK = 2.0**-24  # of the tolerance: what points of the trunk may be o
 APART = 2.0**-4  # of the tolerance: points that are nearer to each other are one
 DEPTH = 12  # halvings of the way between two radii
 GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
+BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
 TINY = 2.0**-1000
 RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -303,6 +304,7 @@ def trace(
     n = beads.side.size
     search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
+    inside = np.empty(4 * n + 16, np.intp)  # the triangle of each point of the path, or -1
     # Points still to be reached, the next one last: x, y; triangle, source, depth.
     goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
     goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
@@ -337,7 +339,10 @@ def trace(
                 mx, my = 0.0, 0.0
                 if obstacle == -1:
                     if depth < DEPTH:
-                        look_between(banks, p_near, goal_near[top])
+                        if ends.are_given and (count == 1 or goal_at[top, 1] == n - 1):
+                            look_everywhere(banks)  # ends are off the trunk
+                        else:
+                            look_between(banks, p_near, goal_near[top])
                         at, mx, my = worst_probe(
                             banks,
                             ends,
@@ -379,16 +384,48 @@ def trace(
             if count + turns.size + 1 > source.size:
                 room = 2 * (count + turns.size + 1)
                 path, source = with_rows(path, room), with_places(source, room)
+                inside = with_places(inside, room)
             for v in turns:
                 if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
                     path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v
+                    inside[count] = -1
                     count += 1
+            # 3. Where the path comes back on itself, it had better not gone there.
+            is_last = ends.are_given and goal_at[top, 1] == n - 1
+            while turns.size == 0 and turns_back(path, count, qx, qy, scale_x, scale_y):
+                before = count - 2
+                if inside[before] < 0:
+                    break
+                back, obstacle = walk(
+                    mesh, inside[before], -1, path[before, 0], path[before, 1], qx, qy
+                )
+                if obstacle != -1:
+                    break
+                count, end = count - 1, back
+                if not is_last and is_near(
+                    qx, qy, path[before, 0], path[before, 1], apart, scale_x, scale_y
+                ):
+                    qx, qy, end = path[before, 0], path[before, 1], inside[before]
             if count == 0 or qx != path[count - 1, 0] or qy != path[count - 1, 1]:
                 path[count, 0], path[count, 1], source[count] = qx, qy, goal_at[top, 1]
+                inside[count] = end
                 count += 1
             t, px, py = end, qx, qy
             p_near[0], p_near[1] = goal_near[top, 0], goal_near[top, 1]
     return path[:count], source[:count]
+
+
+@njit(borrows=True)
+def turns_back(
+    path: Floats, count: int, x: float, y: float, scale_x: float, scale_y: float
+) -> bool:
+    """Whether a path of so many points that goes on to (x, y) turns back at its last point."""
+    if count < 2:
+        return False
+    ux, uy = path[count - 1, 0] - path[count - 2, 0], path[count - 1, 1] - path[count - 2, 1]
+    vx, vy = x - path[count - 1, 0], y - path[count - 1, 1]
+    ux, uy, vx, vy = ux * scale_x, uy * scale_y, vx * scale_x, vy * scale_y
+    return abs(ux * vy - uy * vx) <= BACK * -(ux * vx + uy * vy)
 
 
 @njit(borrows=True)

@@ -33,6 +33,7 @@ __all__ = [
     "rings",
     "shaped",
     "step_vectors",
+    "subdivided",
     "unit_lengths",
     "vertices",
 ]
@@ -139,6 +140,25 @@ def step_vectors(points: "Floats", geographic: bool) -> "Floats":
         middle = (points[:-1, 1] + points[1:, 1]) / 2.0
         steps = steps * np.column_stack(lengths_at(middle))
     return steps
+
+
+def subdivided(chains: Chains, longest: "Floats", geographic: bool) -> Chains:
+    """Chains with points put in evenly, so that no segment is longer than told for its owner."""
+    length = np.hypot(*step_vectors(chains.points, geographic).T)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        count = np.ceil(length / longest[chains.owner[:-1]])
+    # NaN, without an area or a finite place, is one piece as it stands.
+    is_cut = chains.goes_on & (count > 1.0) & np.isfinite(count)
+    pieces = np.append(np.where(is_cut, count, 1.0), 1.0)[: len(chains.points)].astype(np.intp)
+    step = np.zeros_like(chains.points)
+    step[:-1][is_cut] = np.diff(chains.points, axis=0)[is_cut] / count[is_cut, None]
+    first = np.cumsum(pieces) - pieces
+    number = np.arange(pieces.sum()) - np.repeat(first, pieces)
+    points = np.repeat(chains.points, pieces, axis=0)
+    points += number[:, None] * np.repeat(step, pieces, axis=0)
+    goes_on = np.ones(max(number.size - 1, 0), dtype=np.bool_)
+    goes_on[first[1:] - 1] = chains.goes_on
+    return Chains(points, np.repeat(chains.owner, pieces), goes_on)
 
 
 def distances(points: "Floats", owner: "Ints", chains: Chains, unit: "Floats") -> "Floats":

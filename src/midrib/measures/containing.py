@@ -78,6 +78,7 @@ def length_outside(line: Geometries, area: Polygon | MultiPolygon, geographic: b
     points, _, goes_on = vertices(line)
     moves = goes_on & (points[:-1] != points[1:]).any(axis=1)
     segments = shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1)[moves])
+    area = shapely.force_2d(area)  # a copy: callers may share theirs among threads
     shapely.prepare(area)
     segments = segments[~shapely.covers(area, segments)]
     crosses = shapely.intersects(area, segments)

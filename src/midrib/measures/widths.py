@@ -2,11 +2,17 @@
 
 Width is twice the distance from a point of the line to the nearest point of the area's boundary,
 holes included: the diameter of the largest disc around the point that fits into the area.
+
+Its mean and maximum are taken along the line, at the vertices and at places between them, so that
+they hardly depend on how many vertices a line has:
+
+    o-----.-----.-----o--.--o     no two of them are farther apart than half the mean width
 """
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 
 from midrib.measures.chains import (
     Chains,
@@ -20,6 +26,7 @@ from midrib.measures.chains import (
     rings,
     shaped,
     step_vectors,
+    subdivided,
     unit_lengths,
     vertices,
 )
@@ -28,6 +35,8 @@ if TYPE_CHECKING:
     from midrib.types import Floats
 
 __all__ = ["largest_width", "length", "mean_width", "width"]
+
+MOST_INTERVALS = 10_000.0  # of a line: half widths of an area 5000 times as long as wide
 
 
 def length(lines: Any, *, geographic: bool = False) -> Any:
@@ -58,9 +67,8 @@ def length(lines: Any, *, geographic: bool = False) -> Any:
     """
     array = lines_of(lines, "lines")
     flat = array.ravel()
-    points, owner, goes_on = vertices(flat)
-    steps = np.hypot(*step_vectors(points, geographic).T)[goes_on]
-    total = np.bincount(owner[:-1][goes_on], steps, minlength=flat.size)
+    chains = vertices(flat)
+    total = sums(chains, step_vectors(chains.points, geographic), flat.size)
     return shaped(np.where(is_there(flat), total, np.nan), array)
 
 
@@ -129,29 +137,21 @@ def mean_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
 
     Notes
     -----
-    Between two vertices the width is taken to change evenly. A line that ends on the boundary has
-    width 0 there, so the mean of a short line lies below the width of its middle.
+    Measured at the vertices and in between, at intervals of at most half the area's mean width
+    (its area over its perimeter); or of a 10,000th of the line, if that is more. Between these
+    places the width is taken to change evenly. A line that ends on the boundary has width 0 there,
+    so the mean of a short line lies below the width of its middle.
 
     Examples
     --------
     >>> mean_width(LineString([(1, 1), (9, 1)]), box(0, 0, 10, 2))
     2.0
     """
-    flat_lines, flat_areas, like = flat_together(lines_of(lines, "lines"), areas_of(areas, "areas"))
-    chains = vertices(flat_lines)
-    points, owner, goes_on = chains
-    across = widths(chains, flat_areas, geographic)
-    steps = np.hypot(*step_vectors(points, geographic).T)[goes_on]
-    middle = ((across[:-1] + across[1:]) / 2.0)[goes_on]
-    feature = owner[:-1][goes_on]
-    total = np.bincount(feature, steps, minlength=flat_lines.size)
-    with np.errstate(invalid="ignore"):
-        mean = np.bincount(feature, steps * middle, minlength=flat_lines.size) / total
-    return shaped(np.where(is_there(flat_areas), mean, np.nan), like)
+    return mean_and_largest_width(lines, areas, geographic=geographic)[0]
 
 
 def largest_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
-    """Largest width of areas at the vertices of lines.
+    """Largest width of areas along lines.
 
     Parameters
     ----------
@@ -173,19 +173,62 @@ def largest_width(lines: Any, areas: Any, *, geographic: bool = False) -> Any:
     GeometryTypeError
         If something is not a line, or not an area.
 
+    Notes
+    -----
+    Measured at the same places as ``mean_width``. Width changes by at most twice the way along a
+    line, so that no width is larger by more than half the area's mean width.
+
     Examples
     --------
-    >>> largest_width([LineString([(0, 1), (5, 1), (9, 1)]), None], box(0, 0, 9, 2))
+    >>> largest_width([LineString([(0, 1), (9, 1)]), None], box(0, 0, 9, 2))
     array([ 2., nan])
     """
+    return mean_and_largest_width(lines, areas, geographic=geographic)[1]
+
+
+def mean_and_largest_width(lines: Any, areas: Any, *, geographic: bool) -> tuple[Any, Any]:
+    """``mean_width`` and ``largest_width``, for the work of one."""
     flat_lines, flat_areas, like = flat_together(lines_of(lines, "lines"), areas_of(areas, "areas"))
-    chains = vertices(flat_lines)
+    chains = places_along(flat_lines, flat_areas, geographic)
+    points, owner, goes_on = chains
+    across = widths(chains, flat_areas, geographic)
+    steps = np.hypot(*step_vectors(points, geographic).T)[goes_on]
+    middle = ((across[:-1] + across[1:]) / 2.0)[goes_on]
+    feature = owner[:-1][goes_on]
+    total = np.bincount(feature, steps, minlength=flat_lines.size)
+    with np.errstate(invalid="ignore"):
+        mean = np.bincount(feature, steps * middle, minlength=flat_lines.size) / total
     largest = np.full(flat_lines.size, np.nan)
-    np.fmax.at(largest, chains.owner, widths(chains, flat_areas, geographic))
-    return shaped(largest, like)
+    np.fmax.at(largest, owner, across)
+    return shaped(np.where(is_there(flat_areas), mean, np.nan), like), shaped(largest, like)
 
 
 def widths(chains: Chains, areas: Geometries, geographic: bool) -> "Floats":
     """Twice the distance of each vertex to the boundary of its owner's area, NaN without one."""
     unit = unit_lengths(areas, geographic)
     return 2.0 * distances(chains.points, chains.owner, rings(areas), unit)
+
+
+def places_along(lines: Geometries, areas: Geometries, geographic: bool) -> Chains:
+    """Vertices of lines, and places between that are half the mean width of areas apart."""
+    chains = vertices(lines)
+    total = sums(chains, step_vectors(chains.points, geographic), lines.size)
+    with np.errstate(invalid="ignore"):
+        interval = np.fmax(half_mean_widths(areas, geographic), total / MOST_INTERVALS)
+    return subdivided(chains, interval, geographic)
+
+
+def half_mean_widths(areas: Geometries, geographic: bool) -> "Floats":
+    """Area over perimeter of each area, half the width of a long strip; NaN without one."""
+    unit = unit_lengths(areas, geographic)
+    boundary = rings(areas)
+    steps = np.diff(boundary.points, axis=0) * unit[boundary.owner[:-1]]
+    with np.errstate(invalid="ignore"):
+        halves: Floats = shapely.area(areas) * unit.prod(axis=1) / sums(boundary, steps, areas.size)
+    return halves
+
+
+def sums(chains: Chains, steps: "Floats", count: int) -> "Floats":
+    """Length of the chains of each owner."""
+    owner, along = chains.owner[:-1][chains.goes_on], np.hypot(*steps.T)[chains.goes_on]
+    return np.asarray(np.bincount(owner, along, minlength=count), dtype=np.float64)

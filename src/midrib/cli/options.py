@@ -1,0 +1,287 @@
+"""Arguments and options of the commands: each with its name, its choices and its help text, once.
+
+A command says which of them it has, in which order, and what they are unless given. Options of the
+line are those of ``midrib.curves.construction``, under the same names.
+"""
+
+from enum import StrEnum
+from functools import partial
+from pathlib import Path
+from typing import Annotated, TypeAlias
+
+import typer
+
+__all__ = [
+    "Centring",
+    "CentringOption",
+    "Channel",
+    "ChannelOption",
+    "Connect",
+    "Count",
+    "EndClearance",
+    "EndRule",
+    "EndsOption",
+    "Holes",
+    "HolesOption",
+    "Identifier",
+    "Layer",
+    "LineFigure",
+    "LinesOut",
+    "Main",
+    "Mean",
+    "MeanOption",
+    "Method",
+    "OutLayer",
+    "Overwrite",
+    "Percent",
+    "Quiet",
+    "Simplify",
+    "Smooth",
+    "Source",
+    "Spacing",
+    "StationSpacing",
+    "TableFigure",
+    "TableOut",
+    "Tolerance",
+    "Vertices",
+    "Width",
+    "WidthPlace",
+]
+
+
+class EndRule(StrEnum):
+    """Rules for the ends of a line."""
+
+    main = "main"
+    caps = "caps"
+    radii = "radii"
+    none = "none"
+
+
+class Centring(StrEnum):
+    """Ways of centring a line."""
+
+    none = "none"
+    symmetric = "symmetric"
+    centred = "centred"
+
+
+class Mean(StrEnum):
+    """Means of the two curves of a symmetric line."""
+
+    radii = "radii"
+    proportional = "proportional"
+    same_height = "same-height"
+
+
+class Holes(StrEnum):
+    """What holes are."""
+
+    blocked = "blocked"
+    auxiliary = "auxiliary"
+    ignored = "ignored"
+
+
+class Channel(StrEnum):
+    """On which side of islands a line passes."""
+
+    shorter = "shorter"
+    wider = "wider"
+
+
+class WidthPlace(StrEnum):
+    """Where the width of areas is written."""
+
+    columns = "columns"
+    m = "m"
+
+
+argument = partial(typer.Argument, show_default=False)
+of_layers = partial(typer.Option, rich_help_panel="Which features")
+of_table = partial(typer.Option, rich_help_panel="What the table holds")
+of_line = partial(typer.Option, rich_help_panel="How the line is made")
+of_care = partial(typer.Option, rich_help_panel="After-care")
+of_output = partial(typer.Option, rich_help_panel="Output")
+
+Source: TypeAlias = Annotated[Path, argument(metavar="IN", help="Vector file with areas.")]
+LinesOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the lines; its ending chooses the format: .gpkg .parquet .fgb .geojson "
+        ".shp .gml .csv .dxf …",
+    ),
+]
+TableOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the table; its ending chooses the format: .csv for a plain table, "
+        ".parquet .gpkg .fgb .shp … for one with the stations as points.",
+    ),
+]
+
+# Which features
+
+Layer: TypeAlias = Annotated[
+    str | None, of_layers(metavar="NAME", help="Layer of IN; needed if several hold areas.")
+]
+Main: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER[:ID]|FIELD",
+        help="Directional polylines, whose side of the area the line follows: a layer of IN "
+        "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
+    ),
+]
+
+# What the table holds
+
+StationSpacing: TypeAlias = Annotated[
+    str | None,
+    of_table(
+        "--spacing",
+        metavar="LENGTH",
+        help="Interval of the stations: 10m, 50cm, 10ft; a plain number is in units of the "
+        "CRS, metres if it is geographic. The vertices of the line unless you say otherwise.",
+    ),
+]
+Identifier: TypeAlias = Annotated[
+    str | None,
+    of_table(
+        "--id", metavar="FIELD", help="Field of IN to put beside each row, and on the figure."
+    ),
+]
+
+# How the line is made
+
+Method: TypeAlias = Annotated[str, of_line(metavar="NAME", help="One of [bold]midrib methods[/].")]
+Spacing: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        metavar="LENGTH",
+        help="Interval of the radii: 2m, 50cm, 10ft; a plain number is in units of the CRS, "
+        "metres if it is geographic. The mean width unless you say otherwise.",
+    ),
+]
+Count: TypeAlias = Annotated[int | None, of_line(metavar="N", help="Or: number of intervals.")]
+Percent: TypeAlias = Annotated[
+    float | None, of_line(metavar="N", help="Or: interval in percent of the side's length.")
+]
+Vertices: TypeAlias = Annotated[
+    bool | None,
+    of_line(
+        metavar="",
+        help="Radii at the vertices of the side too; yes, unless the line is centred.",
+        show_default=False,
+    ),
+]
+CentringOption: TypeAlias = Annotated[
+    Centring,
+    of_line(
+        metavar="HOW",
+        help="centred: equally far from both sides; symmetric: mean of the two curves from "
+        "either side; none: the paper's curve.",
+    ),
+]
+Tolerance: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        metavar="LENGTH|PERCENT",
+        help="How far off the middle a centred line may be, 1% of the mean width unless you say "
+        "otherwise; of other lines how far off the limit of ever denser radii. A length, or a "
+        "share of the width: 1%.",
+    ),
+]
+MeanOption: TypeAlias = Annotated[
+    Mean | None,
+    of_line(metavar="NAME", help="Mean of a symmetric line: radii, proportional, same-height."),
+]
+HolesOption: TypeAlias = Annotated[
+    Holes,
+    of_line(
+        metavar="WHAT",
+        help="What holes are. blocked: in the way, the line goes round them; auxiliary: parts "
+        "of the other side, the line stays between the main side and them; ignored: nothing, "
+        "the line may cross them, and they do not bound widths.",
+    ),
+]
+ChannelOption: TypeAlias = Annotated[
+    Channel,
+    of_line(
+        metavar="WHICH",
+        help="Where a centred line passes islands: the shorter way, or through the wider channels.",
+    ),
+]
+EndsOption: TypeAlias = Annotated[
+    EndRule,
+    of_line(
+        metavar="RULE",
+        help="Where the line ends. caps: in the middles of the end caps; main: at the ends of "
+        "the main side; radii: at the middles of its last radii to other segments; none: with "
+        "its last radius.",
+    ),
+]
+EndClearance: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        metavar="RULE|LENGTH",
+        help="What keeps radii out of a tip that both sides share: station, proportional, "
+        "none, or a length; proportional, unless the line is centred.",
+    ),
+]
+Connect: TypeAlias = Annotated[
+    bool,
+    of_line(
+        "--connect",
+        metavar="",
+        help="Lines of areas that share an edge meet; joints, and edges without one, go to a "
+        "layer, or a file, …_joints.",
+    ),
+]
+
+# After-care
+
+Simplify: TypeAlias = Annotated[
+    str | None,
+    of_care(
+        metavar="LENGTH|PERCENT",
+        help="Leave out vertices as long as the line stays this near to the full one, inside "
+        "the area: 50cm, or 5% of the mean width.",
+    ),
+]
+Smooth: TypeAlias = Annotated[
+    bool,
+    of_care(
+        "--smooth",
+        metavar="",
+        help="Cut the line's corners, inside the area, in three rounds.",
+    ),
+]
+
+# Output
+
+Width: TypeAlias = Annotated[
+    WidthPlace,
+    of_output(
+        metavar="columns|m",
+        help="Where the width along the line is written. columns: its mean and maximum; m: "
+        "beside them, as the M value of every vertex.",
+    ),
+]
+OutLayer: TypeAlias = Annotated[
+    str | None,
+    of_output(metavar="NAME", help="Layer of OUT; named as in IN unless you say otherwise."),
+]
+LineFigure: TypeAlias = Annotated[
+    Path | None,
+    of_output("--figure", metavar="FILE", help="Draw areas and lines too: .svg .png .pdf"),
+]
+TableFigure: TypeAlias = Annotated[
+    Path | None,
+    of_output("--figure", metavar="FILE", help="Plot width against station too: .svg .png .pdf"),
+]
+Overwrite: TypeAlias = Annotated[bool, of_output("--overwrite", metavar="", help="Replace files.")]
+Quiet: TypeAlias = Annotated[
+    bool, of_output("--quiet", "-q", metavar="", help="No progress, no summary.")
+]
