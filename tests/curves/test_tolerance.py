@@ -1,5 +1,6 @@
 """The limit curve: chains within a tolerance of it, against brute force and closed forms."""
 
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -12,8 +13,8 @@ from shapely import LineString, MultiLineString, Point, Polygon
 from shapely.affinity import scale
 
 from midrib import Curve, Strip, collapse, minimal_radii, split
-from midrib.curves.limit import kernel as kernels
 from midrib.errors import InvalidAreaError, ParameterError
+from midrib.kernels import limit as kernels
 from midrib.kernels.boxtree import GRAZE
 from midrib.types import Floats
 from tests.oracle import Referee
@@ -168,7 +169,7 @@ def test_halving_the_tolerance_never_worsens_the_chain(strip: Strip, share: floa
 
 def without_glances(strip: Strip, tolerance: float, **options: Any) -> Curve:
     """The curve by looking through windows only."""
-    usual = kernels.draw_limit
+    usual: Callable[..., Any] = kernels.draw_limit
 
     def plain(*args: Any) -> Any:
         return usual(*args[:-1], False)
