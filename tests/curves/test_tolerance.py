@@ -1,8 +1,7 @@
 """The limit curve: chains within a tolerance of it, against brute force and closed forms."""
 
-from collections.abc import Callable
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
@@ -20,6 +19,9 @@ from midrib.types import Floats
 from tests.oracle import Referee
 from tests.shapes import NAMED, rectangle, wavy_ribbon
 from tests.strategies import combs, divided, polyominoes, simple_areas, tangled, with_holes
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 ROUNDING = 1e-9  # of the size
 STEPS = 400  # of the dense curve
