@@ -71,9 +71,9 @@ def construction_of_collapse(**options: Any) -> Construction:
     """
     usual = USUAL
     centring = options.get("centring", "centred")
-    if not isinstance(centring, str) or centring != "centred":
+    if not isinstance(centring, str) or centring != "centred":  # an array cannot be compared
         usual = {"ends": "caps"}
-        if centring == "none" and options.get("tolerance") is None:
+        if isinstance(centring, str) and centring == "none" and options.get("tolerance") is None:
             usual["skip"] = "bays"
     return Construction(**(usual | options))
 
