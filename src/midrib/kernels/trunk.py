@@ -304,7 +304,8 @@ def trace(
     n = beads.side.size
     search = new_search(mesh, scale_x, scale_y)
     path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
-    inside = np.empty(4 * n + 16, np.intp)  # the triangle of each point of the path, or -1
+    # Of each point of the path its triangle, or -1, and the segments of its feet on both banks.
+    inside, feet = np.empty(4 * n + 16, np.intp), np.empty((4 * n + 16, 2), np.intp)
     # Points still to be reached, the next one last: x, y; triangle, source, depth.
     goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
     goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
@@ -379,35 +380,35 @@ def trace(
                     continue
             else:
                 end = goal_at[top, 0]
-            # 2. The point itself, by the turns at walls if there are any.
+            # 2. Where the path comes back on itself, it had better not gone there: it goes on from
+            #    the point before, and the way from there is probed anew.
+            before = count - 2
+            is_back = turns.size == 0 and turns_back(path, count, qx, qy, scale_x, scale_y)
+            if is_back and inside[before] >= 0:
+                x, y = path[before, 0], path[before, 1]
+                _, obstacle = walk(mesh, inside[before], -1, x, y, qx, qy)
+                if obstacle == -1:
+                    count, t, px, py = count - 1, inside[before], x, y
+                    p_near[0], p_near[1] = feet[before, 0], feet[before, 1]
+                    goal_at[top, 2] = min(depth + 1, DEPTH)
+                    is_last = ends.are_given and goal_at[top, 1] == n - 1
+                    if not is_last and is_near(qx, qy, x, y, apart, scale_x, scale_y):
+                        waiting -= 1
+                    continue
+            # 3. The point itself, by the turns at walls if there are any.
             waiting -= 1
             if count + turns.size + 1 > source.size:
                 room = 2 * (count + turns.size + 1)
                 path, source = with_rows(path, room), with_places(source, room)
-                inside = with_places(inside, room)
+                inside, feet = with_places(inside, room), with_rows(feet, room)
             for v in turns:
                 if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
                     path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v
                     inside[count] = -1
                     count += 1
-            # 3. Where the path comes back on itself, it had better not gone there.
-            is_last = ends.are_given and goal_at[top, 1] == n - 1
-            while turns.size == 0 and turns_back(path, count, qx, qy, scale_x, scale_y):
-                before = count - 2
-                if inside[before] < 0:
-                    break
-                back, obstacle = walk(
-                    mesh, inside[before], -1, path[before, 0], path[before, 1], qx, qy
-                )
-                if obstacle != -1:
-                    break
-                count, end = count - 1, back
-                if not is_last and is_near(
-                    qx, qy, path[before, 0], path[before, 1], apart, scale_x, scale_y
-                ):
-                    qx, qy, end = path[before, 0], path[before, 1], inside[before]
             if count == 0 or qx != path[count - 1, 0] or qy != path[count - 1, 1]:
                 path[count, 0], path[count, 1], source[count] = qx, qy, goal_at[top, 1]
+                feet[count, 0], feet[count, 1] = goal_near[top, 0], goal_near[top, 1]
                 inside[count] = end
                 count += 1
             t, px, py = end, qx, qy
