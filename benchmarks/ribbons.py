@@ -237,6 +237,12 @@ the Voronoi diagram of boundary points w / {samples} apart, of at most {most}), 
 place, farther from the ends than w. Degrees are made metres at the area's middle latitude.
 *not compared*: refused, or the sampled trunk is in pieces.
 
+What is farther off is mostly lakes with islands: of every third of the simplified ones, 88 % of
+those without islands are within .1 and 60 % of those with. There the line passes an island on
+another side than the trunk, or goes straight from island to island where the trunk keeps to the
+middle of the open water. On roads it is parts that close to a ring: the line goes round, the trunk
+takes the short way.
+
 """
 
 

@@ -58,6 +58,7 @@ APART = 2.0**-4  # of the tolerance: points that are nearer to each other are on
 DEPTH = 12  # halvings of the way between two radii
 GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
 BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
+GOOD, STUCK = -1.0, -2.0  # in place of where a probe is
 TINY = 2.0**-1000
 RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -344,20 +345,9 @@ def trace(
                             look_everywhere(banks)  # ends are off the trunk
                         else:
                             look_between(banks, p_near, goal_near[top])
-                        at, mx, my = worst_probe(
-                            banks,
-                            ends,
-                            px * scale_x,
-                            py * scale_y,
-                            qx * scale_x,
-                            qy * scale_y,
-                            tolerance,
+                        between, mx, my = point_beside(
+                            mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
                         )
-                        mx, my = mx / scale_x, my / scale_y
-                        if at > 0.0:
-                            between = walk_by(
-                                mesh, t, px, py, px + at * (qx - px), py + at * (qy - py), mx, my
-                            )
                 else:
                     end = goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
@@ -491,16 +481,53 @@ def is_near(
 
 
 @njit(borrows=True)
+def point_beside(
+    mesh: Mesh,
+    banks: Banks,
+    ends: Ends,
+    t: int,
+    px: float,
+    py: float,
+    qx: float,
+    qy: float,
+    tolerance: float,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[int, float, float]:
+    """Return the triangle and place of a point of the trunk beside the way from p in t to q.
+
+    It is where the way is farthest off, or where either half of it is, if that cannot be reached;
+    -1 if the way is good enough or no point can be.
+    """
+    for k in range(3):
+        low, high = (0.0, 1.0) if k == 0 else (0.0, 0.5) if k == 1 else (0.5, 1.0)
+        ax, ay = px + low * (qx - px), py + low * (qy - py)
+        bx, by = px + high * (qx - px), py + high * (qy - py)
+        at, x, y = worst_probe(
+            banks, ends, ax * scale_x, ay * scale_y, bx * scale_x, by * scale_y, tolerance
+        )
+        if at == GOOD and k == 0:
+            break
+        if at > 0.0:
+            x, y = x / scale_x, y / scale_y
+            hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
+            end = walk_by(mesh, t, px, py, hx, hy, x, y)
+            if end >= 0:
+                return end, x, y
+    return -1, 0.0, 0.0
+
+
+@njit(borrows=True)
 def worst_probe(
     banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
 ) -> tuple[float, float, float]:
     """Return where (0 at p, 1 at q) the way is farthest off the trunk, and the trunk's point there.
 
-    Where no probe is off by more than is allowed, or the worst cannot be moved: -1.
+    GOOD where no probe is off by more than is allowed, STUCK where the worst cannot be moved.
     """
     span = length(qx - px, qy - py)
     probes, k = 1, 0
-    worst, at = tolerance, -1.0
+    worst, at = tolerance, GOOD
     wx, wy, worst_lean = 0.0, 0.0, NOWHERE
     while k < probes:
         share = (k + 1.0) / (probes + 1.0)
@@ -520,7 +547,7 @@ def worst_probe(
             worst, at, wx, wy, worst_lean = off, share, x, y, lean
     if at > 0.0:
         is_found, wx, wy = level_from(banks, worst_lean, wx, wy)
-        at = at if is_found else -1.0
+        at = at if is_found else STUCK
     return at, wx, wy
 
 
