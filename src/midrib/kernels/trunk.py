@@ -26,6 +26,7 @@ from midrib.kernels.banks import (
     level_from,
     look_between,
     look_everywhere,
+    way_from_nearer,
     way_to_level,
 )
 from midrib.kernels.chain import Chain
@@ -58,7 +59,7 @@ APART = 2.0**-4  # of the tolerance: points that are nearer to each other are on
 DEPTH = 12  # halvings of the way between two radii
 GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
 BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
-GOOD, STUCK = -1.0, -2.0  # in place of where a probe is
+CROWDED = 2.0**-3  # of a way: a point so near to an end of it hardly divides it
 TINY = 2.0**-1000
 RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -497,38 +498,51 @@ def point_beside(
     """Return the triangle and place of a point of the trunk beside the way from p in t to q.
 
     It is where the way is farthest off, or where either half of it is, if that cannot be reached;
-    -1 if the way is good enough or no point can be.
+    -1 if the way is good enough or no point can be. Points that crowd p or q come last.
     """
+    best, best_x, best_y, most = -1, 0.0, 0.0, 0.0
+    enough = CROWDED * length((qx - px) * scale_x, (qy - py) * scale_y)
     for k in range(3):
         low, high = (0.0, 1.0) if k == 0 else (0.0, 0.5) if k == 1 else (0.5, 1.0)
         ax, ay = px + low * (qx - px), py + low * (qy - py)
         bx, by = px + high * (qx - px), py + high * (qy - py)
-        at, x, y = worst_probe(
+        at, lean = worst_probe(
             banks, ends, ax * scale_x, ay * scale_y, bx * scale_x, by * scale_y, tolerance
         )
-        if at == GOOD and k == 0:
+        if at < 0.0 and k == 0:
             break
-        if at > 0.0:
+        hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
+        for is_away in (False, True):
+            if at < 0.0:
+                continue
+            ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
+            if is_away:
+                ux, uy = way_from_nearer(lean, hx * scale_x, hy * scale_y)
+            is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
             x, y = x / scale_x, y / scale_y
-            hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
-            end = walk_by(mesh, t, px, py, hx, hy, x, y)
-            if end >= 0:
+            end = walk_by(mesh, t, px, py, hx, hy, x, y) if is_found else -1
+            to_p = length((x - px) * scale_x, (y - py) * scale_y)
+            to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
+            if end >= 0 and min(to_p, to_q) >= enough:
                 return end, x, y
-    return -1, 0.0, 0.0
+            if end >= 0 and min(to_p, to_q) > most:
+                best, best_x, best_y, most = end, x, y, min(to_p, to_q)
+    if best >= 0:
+        lean_at(banks, best_x * scale_x, best_y * scale_y)  # its feet are the last ones
+    return best, best_x, best_y
 
 
 @njit(borrows=True)
 def worst_probe(
     banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
-) -> tuple[float, float, float]:
-    """Return where (0 at p, 1 at q) the way is farthest off the trunk, and the trunk's point there.
+) -> tuple[float, Lean]:
+    """Return where (0 at p, 1 at q) the way is farthest off the trunk, and how it leans there.
 
-    GOOD where no probe is off by more than is allowed, STUCK where the worst cannot be moved.
+    -1 where no probe is off by more than is allowed.
     """
     span = length(qx - px, qy - py)
     probes, k = 1, 0
-    worst, at = tolerance, GOOD
-    wx, wy, worst_lean = 0.0, 0.0, NOWHERE
+    worst, at, worst_lean = tolerance, -1.0, NOWHERE
     while k < probes:
         share = (k + 1.0) / (probes + 1.0)
         x, y = px + share * (qx - px), py + share * (qy - py)
@@ -544,11 +558,8 @@ def worst_probe(
         _, _, off = way_to_level(lean, x, y)
         off -= allowance(ends, x, y)
         if off > worst:
-            worst, at, wx, wy, worst_lean = off, share, x, y, lean
-    if at > 0.0:
-        is_found, wx, wy = level_from(banks, worst_lean, wx, wy)
-        at = at if is_found else STUCK
-    return at, wx, wy
+            worst, at, worst_lean = off, share, lean
+    return at, worst_lean
 
 
 @njit(borrows=True)
