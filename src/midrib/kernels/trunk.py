@@ -350,14 +350,18 @@ def trace(
                             mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
                         )
                 else:
-                    end = goal_at[top, 0]
+                    before_wall, end = end, goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
                     turns = pull_tight(mesh, sleeve, px, py, qx, qy)
                     look_everywhere(banks)
-                    if depth < DEPTH and turns.size > 0:
+                    if depth < DEPTH:
                         between, mx, my = opposite_middle_turn(
                             mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
                         )
+                        if between < 0 and obstacle >= 0:
+                            between, mx, my = opposite_wall(
+                                mesh, banks, before_wall, obstacle, px, py, qx, qy, scale_x, scale_y
+                            )
                 is_old = is_near(mx, my, px, py, apart, scale_x, scale_y) or is_near(
                     mx, my, qx, qy, apart, scale_x, scale_y
                 )
@@ -588,10 +592,47 @@ def opposite_middle_turn(
     scale_x: float,
     scale_y: float,
 ) -> tuple[int, float, float]:
-    """Return ``opposite_turn`` for the middle one of the turns on the way from p to q."""
+    """Return ``opposite_turn`` for the middle one of the turns, if any, from p to q."""
+    if turns.size == 0:
+        return -1, 0.0, 0.0
     k = turns.size // 2
     if k > 0:
         px, py = mesh.x[turns[k - 1]], mesh.y[turns[k - 1]]
     if k + 1 < turns.size:
         qx, qy = mesh.x[turns[k + 1]], mesh.y[turns[k + 1]]
     return opposite_turn(mesh, banks, turns[k], px, py, qx, qy, scale_x, scale_y)
+
+
+@njit(borrows=True)
+def opposite_wall(
+    mesh: Mesh,
+    banks: Banks,
+    t: int,
+    wall: int,
+    px: float,
+    py: float,
+    qx: float,
+    qy: float,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[int, float, float]:
+    """Return the triangle and place where the way from a wall to the other bank meets the trunk.
+
+    ``wall`` is the boundary side of triangle t that stops the way from p to q; -1 if nowhere.
+    The trunk passes on the wall's other side than the bank that it is of, where the shortest way
+    may not: islands go with a bank.
+    """
+    a, b = mesh.tri[wall], mesh.tri[next_side(wall)]
+    ax, ay, bx, by = mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b]
+    share = ray_meets_side(px, py, qx, qy, ax, ay, bx, by)
+    if not 0.0 <= share <= 1.0:
+        return -1, 0.0, 0.0
+    hx, hy = ax + share * (bx - ax), ay + share * (by - ay)
+    lean = lean_at(banks, hx * scale_x, hy * scale_y)
+    if is_level(lean, banks.slack):
+        return -1, 0.0, 0.0
+    ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
+    is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
+    x, y = x / scale_x, y / scale_y
+    end, obstacle = walk(mesh, t, -1, hx, hy, x, y)
+    return end if is_found and obstacle == -1 else -1, x, y
