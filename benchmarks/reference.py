@@ -6,7 +6,9 @@ r"""The line that others are held against: the trunk of a densely sampled medial
     | /                         \ |     along the medial axis; all its branches are left out
     o-----------------------------o
 
-The Voronoi diagram of points on the boundary keeps, inside the area, near the medial axis. From
+The Voronoi diagram of points on the boundary keeps, inside the area, near the medial axis. Where a
+wall is thinner than the points are apart it may cross the wall: it does so between points that are
+no farther from each other than that, and such steps are left out if they leave the area. From
 an expected end the trunk starts straight to the axis point that has this end nearest; from a tip
 that is narrower than the samples are apart, to the nearest axis point.
 """
@@ -28,6 +30,7 @@ __all__ = ["Axis", "axis_of"]
 
 SAMPLES_PER_WIDTH = 60
 STRAIGHT = 1e-4  # deviation up to which the trunk's points are left out, in widths
+ROUNDING = 1e-9
 NEAR = 1e-3  # what a step along the trunk costs beside a line that it lies on, in widths
 
 
@@ -67,7 +70,8 @@ class Axis:
 
 def axis_of(case: Case, samples_per_width: int = SAMPLES_PER_WIDTH) -> Axis:
     """Sample the boundary of an area and keep what of the Voronoi diagram is inside."""
-    dense = shapely.segmentize(case.area, case.width / samples_per_width)
+    spacing = case.width / samples_per_width
+    dense = shapely.segmentize(case.area, spacing)
     rings = [np.asarray(ring.coords)[:-1] for ring in (dense.exterior, *dense.interiors)]
     points = np.concatenate(rings)
     origin = points.mean(axis=0)  # far from it, the diagram would lose digits
@@ -76,7 +80,12 @@ def axis_of(case: Case, samples_per_width: int = SAMPLES_PER_WIDTH) -> Axis:
     shapely.prepare(case.area)
     inside = shapely.contains_xy(case.area, nodes)
     links = np.asarray(diagram.ridge_vertices, dtype=np.intp)
-    links = links[(links >= 0).all(axis=1) & inside[links].all(axis=1)]
+    is_inner = (links >= 0).all(axis=1) & inside[links].all(axis=1)
+    links, pairs = links[is_inner], diagram.ridge_points[is_inner]
+    apart = np.hypot(*(diagram.points[pairs[:, 0]] - diagram.points[pairs[:, 1]]).T)
+    is_doubtful = apart <= spacing * (1.0 + ROUNDING)
+    crosses = ~shapely.covers(case.area, shapely.linestrings(nodes[links[is_doubtful]]))
+    links = np.delete(links, np.flatnonzero(is_doubtful)[crosses], axis=0)
     piece = pieces(links, len(nodes))
     whole = np.bincount(piece[links[:, 0]]).argmax()
     tips = []
