@@ -48,9 +48,10 @@ from midrib.kernels.paths import (
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
+from midrib.kernels.ways import Stops, is_of_main, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
-__all__ = ["APART", "SHARE_OF_SLACK", "Stops", "ends_of", "trace", "trace_trunk"]
+__all__ = ["APART", "SHARE_OF_SLACK", "ends_of", "trace", "trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -79,14 +80,6 @@ class Ends(NamedTuple):
     reach_1: float
 
 
-class Stops(NamedTuple):
-    """Points that the trunk goes by, in order."""
-
-    point: Floats  # (n, 2)
-    at: Ints  # the bead that each is, or -1 - (the triangle it is in)
-    nearest: Ints  # (n, 2) segments of the main and of the auxiliary bank
-
-
 @njit(entry=True)
 def trace_trunk(
     mesh: Mesh,
@@ -97,6 +90,7 @@ def trace_trunk(
     end: Floats,
     end_origin: Floats,
     end_at: Ints,
+    is_trimmed: bool,
     tolerance: float,
     scale_x: float,
     scale_y: float,
@@ -109,6 +103,7 @@ def trace_trunk(
     main, auxiliary : the two banks
     points, at : radii, as ``draw_radii`` returns them
     end, end_origin, end_at : end points, as in ``join_middles``
+    is_trimmed : whether the ends may lie farther in than the ends of the two banks
     tolerance : how far (in lengths) a probe may be from the trunk
     scale_x, scale_y : lengths of one unit of x and of y
 
@@ -122,16 +117,11 @@ def trace_trunk(
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
-    loops = no_loops()
-    kept = beads_in_order(points[:, 4], first, n)
-    path, source = beads.point[kept], kept
-    if has_islands(mesh, main, auxiliary):
+    loops, kept = no_loops(), beads_in_order(points[:, 4], first, n)
+    with_islands = has_islands(mesh, main, auxiliary)
+    if with_islands:
         some = Beads(beads.point[kept], beads.origin[kept], beads.side[kept], beads.vertex[kept])
-        joined = join_beads(mesh, some, scale_x, scale_y)
-        path, source = joined.points, joined.source
-        for k in range(source.size):
-            if source[k] >= 0:
-                source[k] = kept[source[k]] if source[k] < kept.size else n
+        path = join_beads(mesh, some, scale_x, scale_y).points
         loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
@@ -147,7 +137,11 @@ def trace_trunk(
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
         near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
-    stops = stops_on(mesh, banks, beads, near, path, source, scale_x, scale_y)
+    stops = Stops(beads.point[kept], kept, near[kept])
+    if with_islands:
+        shore = shores_outside(mesh, main, auxiliary, scale_x, scale_y)
+        is_main = is_of_main(shore, mesh, loops)
+        stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)
     if loops.wall_is_main.size > 0:
         banks, point, stop_at, before = land(
@@ -191,50 +185,6 @@ def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
     if ends > 0:
         kept[0], kept[longest + 1] = 0, n - 1
     return kept
-
-
-@njit()
-def stops_on(
-    mesh: Mesh,
-    banks: Banks,
-    beads: Beads,
-    near: Ints,
-    path: Floats,
-    source: Ints,
-    scale_x: float,
-    scale_y: float,
-) -> Stops:
-    """Return the points that the trunk goes by.
-
-    Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
-    passes islands on the side where the path does.
-    """
-    n, last = source.size, beads.side.size - 1
-    point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
-    nearest = np.empty((n + 1, 2), np.intp)
-    for k in range(n):
-        if source[k] > last:
-            continue
-        if source[k] >= 0:
-            point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
-            at[count] = source[k]
-            nearest[count, 0], nearest[count, 1] = near[source[k], 0], near[source[k], 1]
-            count += 1
-        elif 0 < k < n - 1:
-            t, x, y = opposite_turn(
-                mesh, banks, -1 - source[k], path[k - 1, 0], path[k - 1, 1],
-                path[k + 1, 0], path[k + 1, 1], scale_x, scale_y,
-            )  # fmt: skip
-            if t >= 0:
-                point[count, 0], point[count, 1], at[count] = x, y, -1 - t
-                nearest[count, 0], nearest[count, 1] = banks.last[0], banks.last[1]
-                count += 1
-    if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
-        point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
-        at[count] = last
-        nearest[count, 0], nearest[count, 1] = near[last, 0], near[last, 1]
-        count += 1
-    return Stops(point[:count], at[:count], nearest[:count])
 
 
 @njit(borrows=True)
