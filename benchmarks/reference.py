@@ -31,6 +31,7 @@ __all__ = ["Axis", "axis_of"]
 SAMPLES_PER_WIDTH = 60
 STRAIGHT = 1e-4  # deviation up to which the trunk's points are left out, in widths
 ROUNDING = 1e-9
+ON_WALL = 1e-6  # of the way from an end: so much of it may be outside by rounding
 NEAR = 1e-3  # what a step along the trunk costs beside a line that it lies on, in widths
 
 
@@ -90,9 +91,9 @@ def axis_of(case: Case, samples_per_width: int = SAMPLES_PER_WIDTH) -> Axis:
     whole = np.bincount(piece[links[:, 0]]).argmax()
     tips = []
     for end in case.ends:
-        tip = tip_of(diagram, inside, end - origin)
+        tip = tip_of(diagram, inside, end - origin, case, origin)
         if tip < 0 or piece[tip] != whole:
-            tip = tip_beyond(nodes, piece == whole, end, case.width)
+            tip = tip_beyond(nodes, piece == whole, end, case)
         tips.append(tip)
     return Axis(case, nodes, links, (tips[0], tips[1]))
 
@@ -104,19 +105,35 @@ def pieces(links: NDArray[np.intp], size: int) -> NDArray[np.intp]:
     return found
 
 
-def tip_beyond(nodes: Floats, is_whole: NDArray[np.bool_], end: Floats, width: float) -> int:
-    """Node nearest to an end that is too sharp for its samples, or -1 if none is a width near."""
+def tip_beyond(nodes: Floats, is_whole: NDArray[np.bool_], end: Floats, case: Case) -> int:
+    """Node nearest to an end that is too sharp for its samples, or -1 if none is a width near.
+
+    Also -1 if the straight way to it is not free: then it is on the other side of a wall.
+    """
     off = np.hypot(*(nodes - end).T)
     off[~is_whole] = np.inf
     nearest = int(off.argmin())
-    return nearest if off[nearest] <= width else -1
+    return nearest if off[nearest] <= case.width and is_free(case, end, nodes[nearest]) else -1
 
 
-def tip_of(diagram: Voronoi, inside: NDArray[np.bool_], end: Floats) -> int:
-    """Node nearest to an end, of the cell of the boundary point nearest to it, or -1."""
+def is_free(case: Case, end: Floats, node: Floats) -> bool:
+    """Whether the straight way from an end to a node is inside; an end may be a little outside."""
+    start = end + ON_WALL * (node - end)
+    return bool(case.area.covers(LineString([start, node])))
+
+
+def tip_of(
+    diagram: Voronoi, inside: NDArray[np.bool_], end: Floats, case: Case, origin: Floats
+) -> int:
+    """Node nearest to an end, of the cell of the boundary point nearest to it, or -1.
+
+    On the end's side of a wall, if the end is not on the wall itself.
+    """
     sample = np.argmin(((diagram.points - end) ** 2).sum(axis=1))
     cell = np.array(diagram.regions[diagram.point_region[sample]])
     cell = cell[(cell >= 0) & inside[cell]]
     if cell.size == 0:
         return -1
-    return int(cell[np.argmin(((diagram.vertices[cell] - end) ** 2).sum(axis=1))])
+    cell = cell[np.argsort(((diagram.vertices[cell] - end) ** 2).sum(axis=1))]
+    free = (k for k in cell if is_free(case, end + origin, diagram.vertices[k] + origin))
+    return int(next(free, cell[0]))

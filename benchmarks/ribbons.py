@@ -6,7 +6,7 @@ python benchmarks/ribbons.py --generated   without the real areas; written to ou
 
 import argparse
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from itertools import chain
 from typing import Any
 
@@ -35,6 +35,7 @@ SEEDS = 12  # ribbons of each kind
 SAMPLES = 20  # of a real area's boundary for each width
 MORE, MOST_SAMPLES = 5, 100_000  # times as many where the trunk is in pieces; all in all
 NEAR = 0.1  # p95 that is still near the trunk, in local widths
+STEP = 1e-3  # of the width: where a line is seen to have left its end
 SHEET, ZOOM = 24, 2.5  # areas of a contact sheet; widths around the worst place, shown again
 
 
@@ -119,11 +120,18 @@ def real_runs() -> Iterator[tuple[str, list[Run]]]:
 
 
 def real_run(name: str, area: Any, line: LineString | None, reason: str | None) -> Run:
-    """Hold one line against the trunk between its own ends."""
-    ends = np.zeros((2, 2)) if line is None else shapely.get_coordinates(line)[[0, -1]]
+    """Hold one line against the trunk between its own ends.
+
+    An end may be where two places of the area meet across a thin wall, and even a step along the
+    line tells which of the two it is.
+    """
+    ends = np.zeros((2, 2))
     case = Case(name, shapely.get_num_coordinates(area), area, ends, ends, ends)
     if line is None:
         return Run(case, MIDRIB, None, None, None, reason)
+    step = STEP * min(case.width, line.length)
+    ends = shapely.get_coordinates(line.interpolate([step, line.length - step]))
+    case = replace(case, ends=ends, left=ends, right=ends)
     most = max(1, int(MOST_SAMPLES * case.width / case.area.length))
     for samples in sorted({min(SAMPLES, most), min(MORE * SAMPLES, most)}):
         try:
