@@ -31,6 +31,7 @@ __all__ = ["Axis", "axis_of"]
 SAMPLES_PER_WIDTH = 60
 STRAIGHT = 1e-4  # deviation up to which the trunk's points are left out, in widths
 ROUNDING = 1e-9
+MOST_TRIED = 100  # nodes near a sharp end
 ON_WALL = 1e-6  # of the way from an end: so much of it may be outside by rounding
 NEAR = 1e-3  # what a step along the trunk costs beside a line that it lies on, in widths
 
@@ -108,12 +109,12 @@ def pieces(links: NDArray[np.intp], size: int) -> NDArray[np.intp]:
 def tip_beyond(nodes: Floats, is_whole: NDArray[np.bool_], end: Floats, case: Case) -> int:
     """Node nearest to an end that is too sharp for its samples, or -1 if none is a width near.
 
-    Also -1 if the straight way to it is not free: then it is on the other side of a wall.
+    Of the nearest ones the first to which the straight way is free: others are across a wall.
     """
     off = np.hypot(*(nodes - end).T)
-    off[~is_whole] = np.inf
-    nearest = int(off.argmin())
-    return nearest if off[nearest] <= case.width and is_free(case, end, nodes[nearest]) else -1
+    near = np.flatnonzero(is_whole & (off <= case.width))
+    near = near[np.argsort(off[near])][:MOST_TRIED]
+    return int(next((k for k in near if is_free(case, end, nodes[k])), -1))
 
 
 def is_free(case: Case, end: Floats, node: Floats) -> bool:
