@@ -302,8 +302,8 @@ MIDDLE = """\
 How far lines are off the middle, farther from the ends than w, at w / 25: *centredness*, the
 difference of the distances to the two banks over their sum (`midrib.measures.centredness`), and the
 distance from the trunk of the medial axis (from boundary points w / 60 apart) in w. Of the
-first {few} ribbons of the kind the one in the middle, and the worst. By default lines may be off by .01 of the mean width, which is
-a centredness of .02.
+first {few} ribbons of the kind the one in the middle, and the worst. By default lines may be off by
+.01 of the mean width, which is a centredness of .02.
 
 """
 REST = """\
