@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, level_between
+from midrib.kernels.banks import Banks, lean_at, level_between
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import Loops, side_length
 from midrib.kernels.jit import njit
@@ -24,6 +24,7 @@ from midrib.types import Bools, Floats, Ints
 __all__ = ["AUXILIARY", "MAIN", "Stops", "is_of_main", "shores_outside", "stops_on_way"]
 
 MAIN, AUXILIARY = 0, 1
+CLOSE = 0.5  # widths: stops nearer to each other than that are as good as one
 
 
 class Stops(NamedTuple):
@@ -121,24 +122,29 @@ def stops_on_way(
     scale_x: float,
     scale_y: float,
 ) -> Stops:
-    """Return a point of the trunk on each mixed side, between the first and the last bead."""
+    """Return points of the trunk on mixed sides, between the first and the last bead.
+
+    One at least every half width: nearer ones would only make vertices.
+    """
     way = mixed_sides(mesh, main, is_main)
-    n, last = way.size, beads.side.size - 1
-    point, at, nearest = (
-        np.empty((n + 2, 2)),
-        np.empty(n + 2, np.intp),
-        np.empty((n + 2, 2), np.intp),
-    )
-    for i in range(n):
-        p, q = mesh.tri[way[i]], mesh.tri[next_side(way[i])]
+    n, last = 0, beads.side.size - 1
+    point, at = np.empty((way.size + 2, 2)), np.empty(way.size + 2, np.intp)
+    nearest = np.empty((way.size + 2, 2), np.intp)
+    before_x, before_y = np.inf, np.inf
+    for e in way:
+        p, q = mesh.tri[e], mesh.tri[next_side(e)]
         if not is_main[p]:
             p, q = q, p
         x, y = level_between(
             banks, mesh.x[p] * scale_x, mesh.y[p] * scale_y,
             mesh.x[q] * scale_x, mesh.y[q] * scale_y, 0.5,
         )  # fmt: skip
-        point[i + 1, 0], point[i + 1, 1], at[i + 1] = x / scale_x, y / scale_y, -1 - way[i] // 3
-        nearest[i + 1, 0], nearest[i + 1, 1] = banks.last[0], banks.last[1]
+        lean = lean_at(banks, x, y)
+        if length(x - before_x, y - before_y) < CLOSE * (lean.to_main + lean.to_auxiliary):
+            continue
+        before_x, before_y, n = x, y, n + 1
+        point[n, 0], point[n, 1], at[n] = x / scale_x, y / scale_y, -1 - e // 3
+        nearest[n, 0], nearest[n, 1] = banks.last[0], banks.last[1]
     low, high = 1, n + 1
     if is_trimmed and n > 0:
         low = nearest_step(point[1 : n + 1], beads.point[0], scale_x, scale_y) + 2
