@@ -50,7 +50,8 @@ class Axis:
         a, b = self.nodes[self.links[:, 0]], self.nodes[self.links[:, 1]]
         cost = np.hypot(*(a - b).T)
         if line is not None and self.case.area.interiors:
-            off = shapely.distance(shapely.points((a + b) / 2), line)
+            coarse = line.simplify(STRAIGHT * self.case.width)  # exact lines have 10^5 vertices
+            off = shapely.distance(shapely.points((a + b) / 2), coarse)
             cost *= NEAR + off / self.case.width
         size = len(self.nodes)
         graph = csr_array((cost, (self.links[:, 0], self.links[:, 1])), shape=(size, size))
