@@ -312,18 +312,26 @@ What is left, by position in its layer:
 """
 SQUARE = "a wide flat end: the line leads to its middle, the medial axis into its corners"
 TOUCH = "a hole that touches a flat end: half of it goes with either bank"
+FLANK = "a long flank taken for a flat end: the line runs along it"
+OPEN = "straight across open water beside an island, where probes lead back to points it has"
 NARROW = "much narrower there than on average: the tolerance is .01 of the mean width"
 THREAD = "the area goes on as a thread of next to no width, in which the distance is measured"
 ROADS, JUNCTIONS = "road parts, verges, water, banks", "roads and junctions"
 CAUSES = {
+    (ROADS, 140): SQUARE,
     (ROADS, 192): NARROW,
+    (ROADS, 225): SQUARE,
     (ROADS, 255): NARROW,
     (ROADS, 429): SQUARE,
     (ROADS, 836): TOUCH,
     ("water and streets, Heidelberg", 31): SQUARE,
+    ("water and streets, Heidelberg", 57): SQUARE,
+    ("water and streets, Helsinki", 6): FLANK,
     (JUNCTIONS, 209): THREAD,
     (JUNCTIONS, 211): THREAD,
     (JUNCTIONS, 400): THREAD,
+    (JUNCTIONS, 494): SQUARE,
+    ("rivers and lakes, simplified", 351): OPEN,
     ("rivers and lakes, simplified", 435): TOUCH,
 }
 REAL = """\

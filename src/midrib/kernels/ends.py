@@ -4,8 +4,9 @@ r"""The two ends of an area: where a person would say that it begins and ends.
 2. *Shape of an end*, around each of them:
 
      CAP  p------q   a straight run that both banks meet at 35 to 145 degrees: the end is its
-          |      |   middle, and the run belongs to neither curve; of runs longer than two mean
-          |      |   widths only those behind which the area is half as deep or deeper
+          |      |   middle, and the run belongs to neither curve; a run longer than two mean
+          |      |   widths that the two meet askew only if the area behind it is half as deep as
+          |      |   it is long, or deeper
      TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
            |    |    along both banks come out level
@@ -36,6 +37,7 @@ __all__ = [
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
 LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
+ASKEW = 1.0  # sum of the cosines at which two banks meet a run: 30 degrees off square on average
 LEAST_CAP = 0.25  # of the mean width
 LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
 LEAST_DEPTH = 0.5  # of a long cap: the area reaches as far in behind its middle
@@ -190,8 +192,8 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
     The banks' directions are taken over half the length of the run, so that roughness finer than
-    that does not matter. A run much longer than the area is wide may also be a flank of a wider
-    end: there the area is shallow behind it.
+    that does not matter. A run much longer than the area is wide that they meet askew may also be a
+    flank of a wider end: there the area is shallow behind it.
     """
     perimeter = arc[-1]
     cx, cy = x[q] - x[p], y[q] - y[p]
@@ -204,13 +206,13 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
     u, v = length(ux, uy), length(vx, vy)
     if u <= 0.0 or v <= 0.0:
         return False
-    corner_p = abs(ux * cx + uy * cy) / (u * span) <= LEAST_CORNER
-    corner_q = abs(vx * cx + vy * cy) / (v * span) <= LEAST_CORNER
+    at_p, at_q = (ux * cx + uy * cy) / (u * span), (vx * cx + vy * cy) / (v * span)
     outward_p = ux * cy - uy * cx > 0.0  # the shell turns left, so the bank comes from the right
     outward_q = vx * cy - vy * cx > 0.0
-    if not (corner_p and corner_q and outward_p and outward_q):
+    if max(abs(at_p), abs(at_q)) > LEAST_CORNER or not (outward_p and outward_q):
         return False
-    return span <= LONG_CAP * width or depth_behind(x, y, p, q) >= LEAST_DEPTH
+    is_plain = span <= LONG_CAP * width or abs(at_p + at_q) <= ASKEW
+    return is_plain or depth_behind(x, y, p, q) >= LEAST_DEPTH
 
 
 @njit(borrows=True)
