@@ -5,8 +5,8 @@ r"""The two ends of an area: where a person would say that it begins and ends.
 
      CAP  p------q   a straight run that both banks meet at 35 to 145 degrees: the end is its
           |      |   middle, and the run belongs to neither curve; a run longer than two mean
-          |      |   widths that the two meet askew only if the area behind it is half as deep as
-          |      |   it is long, or deeper
+          |      |   widths only if they meet it alike and the area behind it is about half as deep
+          |      |   as it is long, or deeper
      TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
            |    |    along both banks come out level
@@ -40,7 +40,7 @@ LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
 ASKEW = 1.0  # sum of the cosines at which two banks meet a run: 30 degrees off square on average
 LEAST_CAP = 0.25  # of the mean width
 LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
-LEAST_DEPTH = 0.5  # of a long cap: the area reaches as far in behind its middle
+LEAST_DEPTH = 0.45  # of a long cap: real flanks have less behind their middles, waists more
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
 LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
@@ -192,8 +192,8 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
     The banks' directions are taken over half the length of the run, so that roughness finer than
-    that does not matter. A run much longer than the area is wide that they meet askew may also be a
-    flank of a wider end: there the area is shallow behind it.
+    that does not matter. A run much longer than the area is wide may also be a flank of a wider
+    end: the banks meet it askew, or the area is shallow behind it in the direction of both.
     """
     perimeter = arc[-1]
     cx, cy = x[q] - x[p], y[q] - y[p]
@@ -211,16 +211,18 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
     outward_q = vx * cy - vy * cx > 0.0
     if max(abs(at_p), abs(at_q)) > LEAST_CORNER or not (outward_p and outward_q):
         return False
-    is_plain = span <= LONG_CAP * width or abs(at_p + at_q) <= ASKEW
-    return is_plain or depth_behind(x, y, p, q) >= LEAST_DEPTH
+    if span <= LONG_CAP * width:
+        return True
+    inward_x, inward_y = -(ux / u + vx / v), -(uy / u + vy / v)
+    is_deep = depth_behind(x, y, p, q, inward_x, inward_y) >= LEAST_DEPTH * span
+    return is_deep and abs(at_p + at_q) <= ASKEW
 
 
 @njit(borrows=True)
-def depth_behind(x: Floats, y: Floats, p: int, q: int) -> float:
-    """How far straight in from the middle of a run the shell comes again, as a share of the run."""
+def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> float:
+    """How far along u from the middle of the run from vertex p to vertex q the shell comes again."""
     n, depth = x.size, np.inf
-    mx, my = (x[p] + x[q]) / 2.0, (y[p] + y[q]) / 2.0
-    ux, uy = y[p] - y[q], x[q] - x[p]  # the shell turns left, so this leads inside
+    mx, my, size = (x[p] + x[q]) / 2.0, (y[p] + y[q]) / 2.0, length(ux, uy)
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         at_i = (x[i] - mx) * uy - (y[i] - my) * ux
@@ -229,9 +231,9 @@ def depth_behind(x: Floats, y: Floats, p: int, q: int) -> float:
             continue
         t = at_i / (at_i - at_j)
         hx, hy = x[i] + t * (x[j] - x[i]) - mx, y[i] + t * (y[j] - y[i]) - my
-        share = (hx * ux + hy * uy) / (ux * ux + uy * uy)
-        if share > STRAIGHT:
-            depth = min(depth, share)
+        way = (hx * ux + hy * uy) / size
+        if way > STRAIGHT * size:
+            depth = min(depth, way)
     return depth
 
 
