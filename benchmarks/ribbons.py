@@ -312,7 +312,6 @@ What is left, by position in its layer:
 """
 SQUARE = "a wide flat end: the line leads to its middle, the medial axis into its corners"
 TOUCH = "a hole that touches a flat end: half of it goes with either bank"
-FLANK = "a long flank taken for a flat end: the line runs along it"
 OPEN = "straight across open water beside an island, where probes lead back to points it has"
 NARROW = "much narrower there than on average: the tolerance is .01 of the mean width"
 THREAD = "the area goes on as a thread of next to no width, in which the distance is measured"
@@ -325,8 +324,6 @@ CAUSES = {
     (ROADS, 429): SQUARE,
     (ROADS, 836): TOUCH,
     ("water and streets, Heidelberg", 31): SQUARE,
-    ("water and streets, Heidelberg", 57): SQUARE,
-    ("water and streets, Helsinki", 6): FLANK,
     (JUNCTIONS, 209): THREAD,
     (JUNCTIONS, 211): THREAD,
     (JUNCTIONS, 400): THREAD,

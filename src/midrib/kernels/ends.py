@@ -220,7 +220,7 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
 
 @njit(borrows=True)
 def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> float:
-    """How far along u from the middle of the run from vertex p to vertex q the shell comes again."""
+    """How far along u from the middle of a run, vertex p to vertex q, the shell comes again."""
     n, depth = x.size, np.inf
     mx, my, size = (x[p] + x[q]) / 2.0, (y[p] + y[q]) / 2.0, length(ux, uy)
     for i in range(n):
