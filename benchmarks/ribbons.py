@@ -193,12 +193,11 @@ def centred_table(runs: Sequence[Run]) -> str:
         for name in CENTRED:
             named = [run for run in mine if run.way.name == name]
             found = [off_middle(run.case, run.line) for run in named[:FEW] if run.line is not None]
-            both = np.array(found).reshape(-1, 2)
-            cells += [
-                MISSING if not found else number(float(figure), 4)
-                for column in both.T
-                for figure in (np.median(column), column.max(initial=0.0))
-            ]
+            if not found:
+                cells += [MISSING] * 4
+                continue
+            for column in np.array(found).T:
+                cells += [number(float(figure), 4) for figure in (np.median(column), column.max())]
         rows.append([kind, *cells])
     head = ["centredness p95", "worst", "off the trunk p95", "worst"]
     return markdown(["", *head, *(f"{text}, tolerance 0" for text in head)], rows)

@@ -223,6 +223,7 @@ def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> 
     """How far along u from the middle of a run, vertex p to vertex q, the shell comes again."""
     n, depth = x.size, np.inf
     mx, my, size = (x[p] + x[q]) / 2.0, (y[p] + y[q]) / 2.0, length(ux, uy)
+    least = STRAIGHT * length(x[q] - x[p], y[q] - y[p])  # nearer is the run itself
     for i in range(n):
         j = i + 1 if i + 1 < n else 0
         at_i = (x[i] - mx) * uy - (y[i] - my) * ux
@@ -232,7 +233,7 @@ def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> 
         t = at_i / (at_i - at_j)
         hx, hy = x[i] + t * (x[j] - x[i]) - mx, y[i] + t * (y[j] - y[i]) - my
         way = (hx * ux + hy * uy) / size
-        if way > STRAIGHT * size:
+        if way > least:
             depth = min(depth, way)
     return depth
 
