@@ -19,7 +19,7 @@ from families import Case, Floats
 from midrib.measures.chains import distances, vertices
 from score import ends_of, places_on
 
-__all__ = ["MEASURES", "Known", "Offsets", "offsets_of"]
+__all__ = ["MEASURES", "P95", "STEPS_PER_WIDTH", "Known", "Offsets", "offsets_of"]
 
 STEPS_PER_WIDTH = 25  # places at which offsets are measured
 MOST = 20_000  # of them on one axis: a stream of thousands of widths gets longer steps

@@ -6,7 +6,8 @@ python benchmarks/ribbons.py --generated   without the real areas; written to ou
 
 import argparse
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from functools import lru_cache
 from itertools import chain
 from typing import Any
 
@@ -17,7 +18,7 @@ from shapely import LineString
 from shapely.geometry.base import BaseGeometry
 
 from families import Case
-from offsets import MEASURES, Known, Offsets, offsets_of
+from offsets import MEASURES, P95, STEPS_PER_WIDTH, Known, Offsets, offsets_of
 from real_areas import FOLDER, layers
 from reference import axis_of
 from ribbon_shapes import KINDS, Ribbon, make_ribbon
@@ -31,10 +32,11 @@ RESULTS = ROOT / "benchmarks" / "results" / "ribbons.json"
 PAGE = ROOT / "docs" / "ribbons.md"
 OUT = ROOT / "out"
 
-SEEDS = 12  # ribbons of each kind
+SEEDS, FEW = 12, 3  # ribbons of each kind; those held against their own medial axes
 SAMPLES = 20  # of a real area's boundary for each width
 MORE, MOST_SAMPLES = 5, 100_000  # times as many where the trunk is in pieces; all in all
 NEAR = 0.1  # p95 that is still near the trunk, in local widths
+STEP = 1e-3  # of the width: where a line is seen to have left its end
 SHEET, ZOOM = 24, 2.5  # areas of a contact sheet; widths around the worst place, shown again
 
 
@@ -119,11 +121,18 @@ def real_runs() -> Iterator[tuple[str, list[Run]]]:
 
 
 def real_run(name: str, area: Any, line: LineString | None, reason: str | None) -> Run:
-    """Hold one line against the trunk between its own ends."""
-    ends = np.zeros((2, 2)) if line is None else shapely.get_coordinates(line)[[0, -1]]
+    """Hold one line against the trunk between its own ends.
+
+    An end may be where two places of the area meet across a thin wall, and even a step along the
+    line tells which of the two it is.
+    """
+    ends = np.zeros((2, 2))
     case = Case(name, shapely.get_num_coordinates(area), area, ends, ends, ends)
     if line is None:
         return Run(case, MIDRIB, None, None, None, reason)
+    step = STEP * min(case.width, line.length)
+    ends = shapely.get_coordinates(line.interpolate([step, line.length - step]))
+    case = replace(case, ends=ends, left=ends, right=ends)
     most = max(1, int(MOST_SAMPLES * case.width / case.area.length))
     for samples in sorted({min(SAMPLES, most), min(MORE * SAMPLES, most)}):
         try:
@@ -168,6 +177,64 @@ def overview(runs: Sequence[Run], ways: Sequence[Way], measure: str) -> str:
             cells.append(number(float(np.median(found)), 3) if found else MISSING)
         rows.append([kind, *cells])
     return markdown(["", *(way.name for way in ways)], rows)
+
+
+CENTRED = (MIDRIB.name, "midrib, tolerance 0")
+
+
+def centred_table(runs: Sequence[Run]) -> str:
+    """One row for each kind without islands: how far off the middle and off the trunk lines are."""
+    rows = []
+    for kind in KINDS:
+        mine = [run for run in runs if run.case.family == kind and run.way.name in CENTRED]
+        if any(run.case.area.interiors for run in mine):
+            continue
+        cells = []
+        for name in CENTRED:
+            named = [run for run in mine if run.way.name == name]
+            found = [off_middle(run.case, run.line) for run in named[:FEW] if run.line is not None]
+            if not found:
+                cells += [MISSING] * 4
+                continue
+            for column in np.array(found).T:
+                cells += [number(float(figure), 4) for figure in (np.median(column), column.max())]
+        rows.append([kind, *cells])
+    head = ["centredness p95", "worst", "off the trunk p95", "worst"]
+    return markdown(["", *head, *(f"{text}, tolerance 0" for text in head)], rows)
+
+
+def off_middle(case: Case, line: BaseGeometry) -> tuple[float, float]:
+    """P95 of the centredness of a line, and of its distance from the trunk in widths.
+
+    Both away from the ends, in equal steps.
+    """
+    from midrib import measures, split
+
+    w = case.width
+    count = max(2, int(np.ceil(STEPS_PER_WIDTH * line.length / w)))
+    at = np.linspace(w, line.length - w, count)
+    points = line.interpolate(at)
+    inner = LineString(shapely.get_coordinates(points))
+    lean = measures.centredness(inner, split(case.area))
+    off = shapely.distance(points, trunk_of(case)) / w
+    return float(np.percentile(lean, P95)), float(np.percentile(off, P95))
+
+
+@lru_cache
+def trunk_of(case: Case) -> LineString:
+    """Trunk of the sampled medial axis of an area without holes."""
+    return axis_of(case).trunk()
+
+
+def left_over(layers_of_runs: Sequence[tuple[str, Sequence[Run]]]) -> str:
+    """One row for each real area whose line is not near its trunk, with the cause."""
+    rows = [
+        [name, str(i), number(run.offsets.p95, 2), CAUSES.get((name, i), "not looked into")]
+        for name, runs in layers_of_runs
+        for i, run in enumerate(runs)
+        if run.offsets is not None and run.offsets.p95 > NEAR
+    ]
+    return markdown(["", "position", "p95", "cause"], rows)
 
 
 def real_table(layers_of_runs: Sequence[tuple[str, Sequence[Run]]]) -> str:
@@ -228,6 +295,41 @@ islands the axis is the trunk of the medial axis, on the side where the line pas
 branches are measured as they are.
 
 """
+MIDDLE = """\
+## In the middle
+
+How far lines are off the middle, farther from the ends than w, at w / 25: *centredness*, the
+difference of the distances to the two banks over their sum (`midrib.measures.centredness`), and the
+distance from the trunk of the medial axis (from boundary points w / 60 apart) in w. Of the
+first {few} ribbons of the kind the one in the middle, and the worst. By default lines may be off by
+.01 of the mean width, which is a centredness of .02.
+
+"""
+REST = """\
+What is left, by position in its layer:
+
+"""
+SQUARE = "a wide flat end: the line leads to its middle, the medial axis into its corners"
+TOUCH = "a hole that touches a flat end: half of it goes with either bank"
+OPEN = "straight across open water beside an island, where probes lead back to points it has"
+NARROW = "much narrower there than on average: the tolerance is .01 of the mean width"
+THREAD = "the area goes on as a thread of next to no width, in which the distance is measured"
+ROADS, JUNCTIONS = "road parts, verges, water, banks", "roads and junctions"
+CAUSES = {
+    (ROADS, 140): SQUARE,
+    (ROADS, 192): NARROW,
+    (ROADS, 225): SQUARE,
+    (ROADS, 255): NARROW,
+    (ROADS, 429): SQUARE,
+    (ROADS, 836): TOUCH,
+    ("water and streets, Heidelberg", 31): SQUARE,
+    (JUNCTIONS, 209): THREAD,
+    (JUNCTIONS, 211): THREAD,
+    (JUNCTIONS, 400): THREAD,
+    (JUNCTIONS, 494): SQUARE,
+    ("rivers and lakes, simplified", 351): OPEN,
+    ("rivers and lakes, simplified", 435): TOUCH,
+}
 REAL = """\
 ## Real areas
 
@@ -237,11 +339,12 @@ the Voronoi diagram of boundary points w / {samples} apart, of at most {most}), 
 place, farther from the ends than w. Degrees are made metres at the area's middle latitude.
 *not compared*: refused, or the sampled trunk is in pieces.
 
-What is farther off is mostly lakes with islands: of every third of the simplified ones, 88 % of
-those without islands are within .1 and 60 % of those with. There the line passes an island on
-another side than the trunk, or goes straight from island to island where the trunk keeps to the
-middle of the open water. On roads it is parts that close to a ring: the line goes round, the trunk
-takes the short way.
+Without islands there is one trunk between two ends, and that is it. With islands the medial axis
+is a net; there the trunk is the way through it that stays nearest to the line: of all ways from end
+to end the one with the least integral of the distance to the line. So it says how far the line is
+from the middle of the channels that it takes, not whether others would have been better: for that
+there is `channel="wider"`. It starts from where the line has left its end by w / 1000, on the same
+side of every wall.
 
 """
 
@@ -268,10 +371,12 @@ def page(
     for kind in KINDS:
         some = [run for run in runs if run.case.family == kind]
         parts.append(f"## {kind[0].upper()}{kind[1:]}\n\n{kind_table(some, ways)}\n")
+    parts.append(f"{MIDDLE.format(few=FEW)}{centred_table(runs)}\n")
     if layers_of_runs:
         parts.append(
             REAL.format(samples=SAMPLES, most=f"{MOST_SAMPLES:,}") + real_table(layers_of_runs)
         )
+        parts.append(f"\n{REST}{left_over(layers_of_runs)}")
     return "".join(parts).rstrip() + "\n"
 
 

@@ -109,3 +109,23 @@ def test_ends_of_rectangles_of_any_size(length: int, width: int, power: int) -> 
     area = shapely.transform(rectangle(length, width), lambda xy: xy * 2.0**power)
     line = shapely.transform(collapse(area, count=4), lambda xy: xy / 2.0**power)
     assert line.equals(LineString([(0, width / 2), (length, width / 2)]))
+
+
+@pytest.mark.parametrize("degrees", [0.0, 40.0, 200.0])
+@pytest.mark.parametrize("flip", [1.0, -1.0])
+def test_the_flank_of_an_oblique_end_is_no_cap(degrees: float, flip: float) -> None:
+    """The line had ended in the middle of one of the sides by the farther tip."""
+    tips = [(0, 0), (89, -13)]
+    kite = [(0, 0), (66, -27), (89, -13), (41, -6)]
+    area, ends = (
+        rotate(shapely.transform(shape, lambda xy: xy * [1.0, flip]), degrees, origin=(0, 0))
+        for shape in (Polygon(kite), LineString(tips))
+    )
+    line = collapse(area)
+    found = sorted([line.coords[0], line.coords[-1]])
+    assert np.allclose(found, sorted(ends.coords))
+
+
+def test_a_wide_end_with_depth_behind_it_is_a_cap() -> None:
+    trumpet = [(0, 2.5), (40, 2.5), (50, 0), (50, 6), (40, 3.5), (0, 3.5)]
+    assert line_ends(Polygon(trumpet)) == [(0.0, 3.0), (50.0, 3.0)]

@@ -9,11 +9,27 @@ import shapely
 from shapely import LineString, MultiLineString
 from shapely.affinity import translate
 
-from families import make
+from families import Case, make
+from midrib import collapse
 from offsets import Known, Offsets, offsets_of
+from real_areas import FOLDER, long_areas
 from reference import axis_of
 from ribbon_shapes import KINDS, WIDTH, make_ribbon
-from ribbons import Run, draw_sheets, kind_table, known_axis, one_run, overview, page, real_table
+from ribbons import (
+    Run,
+    centred_table,
+    draw_sheets,
+    kind_table,
+    known_axis,
+    left_over,
+    off_middle,
+    one_run,
+    overview,
+    p95_of,
+    page,
+    real_run,
+    real_table,
+)
 from rivals import MIDRIB, available, line_by, variant
 
 from .test_scoreboard import along_rectangle
@@ -45,6 +61,29 @@ def test_the_known_width_is_the_width(kind: str) -> None:
     points = shapely.points(ribbon.axis[inner])
     width = 2.0 * shapely.distance(points, ribbon.case.area.boundary)
     assert width == pytest.approx(ribbon.width[inner], rel=0.1)
+
+
+def test_the_trunk_goes_round_a_spit_thinner_than_its_samples() -> None:
+    spit = [(20.0, 0.0), (20.01, 6.0), (20.02, 0.0)]
+    area = shapely.Polygon([(0, 0), *spit, (40, 0), (40, 10), (0, 10)])
+    ends = np.array([(0.0, 5.0), (40.0, 5.0)])
+    trunk = axis_of(Case("spit", 7, area, ends, ends, ends), samples_per_width=10).trunk()
+    assert area.buffer(1e-6).covers(trunk)
+    assert trunk.intersection(LineString([(20.01, 0), (20.01, 10)])).y == pytest.approx(8, abs=0.3)
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
+@pytest.mark.parametrize("file", ["geomaps_rivers_americas_poland", "gshhg_rivers_lakes_americas"])
+def test_lines_of_real_lakes_and_rivers_are_near_their_trunks(file: str) -> None:
+    areas = long_areas(FOLDER / f"{file}.parquet", None)[::25]
+    runs = [
+        real_run(file, area, line, None) for area, line in zip(areas, collapse(areas), strict=True)
+    ]
+    p95 = p95_of(runs)
+    assert p95.size >= 30
+    assert np.mean(p95 <= 0.1) >= 0.97
+    assert np.median(p95) <= 0.02
 
 
 def test_a_ribbon_ends_where_its_axis_does() -> None:
@@ -100,6 +139,18 @@ def test_options_that_are_not_there_are_left_out_with_a_note() -> None:
     assert "no_such_option" in notes[0]
 
 
+def test_a_line_beside_the_middle_is_off_it() -> None:
+    case = make_ribbon("smooth banks, flat ends", 0).case
+    line = MIDRIB.run(case.area, case.width)
+    shifted = translate(line, 0.0, 0.2 * case.width)
+    lean, off = off_middle(case, line)
+    assert lean <= 0.02
+    assert off <= 0.01
+    lean, off = off_middle(case, shifted)
+    assert lean == pytest.approx(0.4, abs=0.03)
+    assert off == pytest.approx(0.2, abs=0.02)
+
+
 def test_a_way_that_fails_is_counted() -> None:
     ribbon = make_ribbon("round ends", 0)
     broken = dataclasses.replace(MIDRIB, name="broken", run=lambda *_: 1 / 0)
@@ -123,6 +174,8 @@ def test_page_and_sheets_of_a_tiny_run(tmp_path: Path, monkeypatch: pytest.Monke
     assert runs[0].as_record()["median"] < 0.1
     assert overview(runs, [MIDRIB], "p95") in text
     assert real_table([("some layer", runs)]) in text
+    assert centred_table(runs) in text
+    assert left_over([("some layer", runs)]) in text
     monkeypatch.setattr("ribbons.OUT", tmp_path)
     draw_sheets(runs, "few")
     assert {path.name for path in tmp_path.iterdir()} == {

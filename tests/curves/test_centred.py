@@ -153,3 +153,38 @@ def test_lines_do_not_turn_back(area: Polygon) -> None:
     turns = np.abs((np.diff(angles) + 180.0) % 360.0 - 180.0)
     assert (turns < 170.0).all()
     assert np.hypot(*steps.T).min() > 1e-6
+
+
+MOUTHS = {
+    "T": "POLYGON ((0 0, 100 0, 100 10, 60 10, 60 60, 40 60, 40 10, 0 10, 0 0))",
+    "funnel": "POLYGON ((0 0, 100 0, 100 10, 70 10, 52 40, 48 40, 45 10, 0 10, 0 0))",
+    "elbow": "POLYGON ((0 0, 40 0, 60 -30, 80 -30, 58 2, 100 4, 100 14, 50 9, 0 10, 0 0))",
+    "both": "POLYGON ((0 0, 45 0, 40 -25, 50 -25, 58 0, 100 0, 100 9, 56 9, 70 35, 60 35, 40 9, "
+    "0 9, 0 0))",
+}
+
+
+@pytest.mark.parametrize("tolerance", ["1%", "0.1%"])
+@pytest.mark.parametrize("name", sorted(MOUTHS))
+def test_the_line_turns_into_the_mouths_of_bays_as_the_trunk_does(
+    name: str, tolerance: str
+) -> None:
+    """There the farther bank has two nearest points; the line had gone straight across."""
+    area = shapely.from_wkt(MOUTHS[name])
+    line = collapse(area, tolerance=tolerance)
+    lean = measures.centredness(line, split(area), spacing=0.25)
+    inner = lean[40:-40]
+    assert inner.max() <= 4.0 * float(tolerance.removesuffix("%")) / 100.0
+
+
+def test_the_line_passes_an_island_on_its_banks_other_side() -> None:
+    """The short way past an island leads round the side where there is no bank of it to face."""
+    islands = [box(12, 1, 13, 2), box(40, 1, 41, 2), box(68, 1, 69, 2)]
+    area = Polygon(box(0, 0, 100, 20).exterior, [island.exterior for island in islands])
+    banks = LineString([(0, 0), (100, 0)]), LineString([(0, 20), (100, 20)])
+    curve = minimal_radii(
+        Strip(*banks, area), ends="caps", holes="auxiliary", centring="centred", end_clearance=None
+    )
+    for island in islands:
+        beside = curve.line.intersection(LineString([(island.centroid.x, 0), island.centroid]))
+        assert beside.y == pytest.approx(0.5, abs=0.2)

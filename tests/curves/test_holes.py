@@ -313,3 +313,14 @@ def test_a_hole_that_touches_one_side_closes_no_ring() -> None:
     strip = split(VALID["hole_on_segment"])
     assert strip.main.length == pytest.approx(10.0)
     assert strip.auxiliary.length == pytest.approx(10.0)
+
+
+@pytest.mark.parametrize("channel", ["shorter", "wider"])
+def test_dense_banks_beside_islands_make_no_dense_lines(channel: str) -> None:
+    """The trunk goes by a side between the banks at most every half width."""
+    sparse = river(box(20, 4, 30, 7), box(60, 12, 80, 16))
+    dense = shapely.segmentize(sparse, 0.1)
+    few, many = (
+        shapely.get_num_coordinates(collapse(area, channel=channel)) for area in (sparse, dense)
+    )
+    assert many <= 2 * few

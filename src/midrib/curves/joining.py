@@ -72,11 +72,10 @@ def join_middles(
     mesh, main, auxiliary = layout.mesh, layout.main, layout.auxiliary
     if centred_within is None:
         joined = kernel.join_middles(mesh, *strung, *layout.scale)
-    elif channel == "wider" or layout.has_bridges:
-        within = (rule not in ("main", "caps"), centred_within)
-        joined = trace_wider(mesh, main, auxiliary, *strung, *within, *layout.scale)
     else:
-        joined = trace_trunk(mesh, main, auxiliary, *strung, centred_within, *layout.scale)
+        trace = trace_wider if channel == "wider" or layout.has_bridges else trace_trunk
+        within = rule not in ("main", "caps"), centred_within
+        joined = trace(mesh, main, auxiliary, *strung, *within, *layout.scale)
     points, source, loops, beads = joined
     if rule not in RULES and len(ends.point):
         refuse_ends_outside(ends, points, source, len(radii.points) + 2)

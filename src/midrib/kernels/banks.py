@@ -35,6 +35,7 @@ __all__ = [
     "level_from",
     "look_between",
     "look_everywhere",
+    "way_from_nearer",
     "way_to_level",
 ]
 
@@ -243,23 +244,41 @@ def way_to_level(lean: Lean, x: float, y: float) -> tuple[float, float, float]:
     if lean.value < 0.0:
         fx, fy, far = lean.auxiliary_x, lean.auxiliary_y, lean.to_auxiliary
     ux, uy = (fx - x) / far, (fy - y) / far
-    slope = abs(slope_along(lean, x, y, ux, uy))
-    return ux, uy, abs(lean.value) / slope if slope > 0.0 else np.inf
+    return ux, uy, step_to_level(lean, x, y, ux, uy)
 
 
 @njit(borrows=True)
-def level_from(banks: Banks, lean: Lean, x: float, y: float) -> tuple[bool, float, float]:
-    """Move a point towards the farther bank until it is level; whether it came to be, and where.
+def way_from_nearer(lean: Lean, x: float, y: float) -> tuple[float, float]:
+    """Return the unit vector straight away from the nearer bank; none on the bank itself."""
+    nx, ny, near = lean.main_x, lean.main_y, lean.to_main
+    if lean.value > 0.0:
+        nx, ny, near = lean.auxiliary_x, lean.auxiliary_y, lean.to_auxiliary
+    return ((x - nx) / near, (y - ny) / near) if near > 0.0 else (0.0, 0.0)
+
+
+@njit(borrows=True)
+def step_to_level(lean: Lean, x: float, y: float, ux: float, uy: float) -> float:
+    """How far along the unit vector u the lean is none, about."""
+    slope = slope_along(lean, x, y, ux, uy)
+    slope = slope if lean.value < 0.0 else -slope
+    return abs(lean.value) / slope if slope > 0.0 else np.inf
+
+
+@njit(borrows=True)
+def level_from(
+    banks: Banks, lean: Lean, x: float, y: float, ux: float, uy: float
+) -> tuple[bool, float, float]:
+    """Move a point along the unit vector u until it is level; whether it came to be, and where.
 
     Never farther at once than the nearer bank is: so it stays on its side of every wall.
     """
     for _ in range(STEPS):
         if is_level(lean, banks.slack):
             return True, x, y
-        ux, uy, step = way_to_level(lean, x, y)
         near, far = min(lean.to_main, lean.to_auxiliary), max(lean.to_main, lean.to_auxiliary)
         # From a wall itself there is no safe step; whether the way leaves the area, walks tell.
-        step = min(step, SAFE * near if near > AT_WALL * far else far / 2.0)
+        step = SAFE * near if near > AT_WALL * far else far / 2.0
+        step = min(step, step_to_level(lean, x, y, ux, uy))
         px, py, was = x, y, lean.value
         x, y = x + step * ux, y + step * uy
         lean = lean_at(banks, x, y)

@@ -7,11 +7,11 @@ leave two banks and the widest way between them: no other way has a wider narrow
 (Kruskal's forest with two roots).
 
     auxiliary -----------------------
-                  |  closed                 o-------o     A side of the mesh is *mixed* if its two
-                 ___                         \     / \    ends are of different banks. A triangle
-        ........ \_/ ......                   \   /   \   has two mixed sides or none, so they
-       .                   .. trunk            \ /     \  lead from the one end of the area to the
-    main -----------------------                x-------x other: one way, without a choice.
+                  |  closed
+                 ___
+        ........ \_/ ......
+       .                   .. trunk
+    main -----------------------
 
 *Bridges* are closed channels as steps from one loop to another and back, from vertex to vertex: a
 curve that takes them goes round each island, and comes back, on its way.
@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, banks_of, level_between
+from midrib.kernels.banks import banks_of, level_between
 from midrib.kernels.boxtree import DEPTH, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.clearance import nearest_of
@@ -31,16 +31,15 @@ from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, string_beads
 from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import Mesh, next_boundary_side
-from midrib.kernels.paths import Beads
-from midrib.kernels.triangulation import next_side, previous_side
-from midrib.kernels.trunk import APART, SHARE_OF_SLACK, Stops, ends_of, trace
-from midrib.types import Bools, Floats, Ints
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.triangulation import next_side
+from midrib.kernels.trunk import APART, SHARE_OF_SLACK, ends_of, trace
+from midrib.kernels.ways import AUXILIARY, MAIN, Stops, shores_outside, stops_on_way
+from midrib.types import Floats, Ints
 
 __all__ = ["trace_wider", "with_islands"]
 
 HALF = 0.5
-MAIN, AUXILIARY = 0, 1  # loops; islands are numbered on
 
 
 class Shores(NamedTuple):
@@ -111,10 +110,9 @@ def trace_wider(
         )
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
     is_main = root[shores.loop] == MAIN
-    way = mixed_sides(mesh, main, is_main)
     near = np.zeros((n, 2), np.intp)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
-    stops = stops_on_way(mesh, banks, beads, near, way, is_main, is_trimmed, scale_x, scale_y)
+    stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)
     if islands.wall_is_main.size > 0:
         banks, point, stop_at, before = land(
@@ -167,36 +165,7 @@ def shores_of(mesh: Mesh, main: Chain, auxiliary: Chain, scale_x: float, scale_y
     for i in range(2):
         nowhere[i, 0], nowhere[i, 1] = mesh.x[main.vertex[0]], mesh.y[main.vertex[0]]
     islands = loops_of(mesh, main, auxiliary, nowhere, scale_x, scale_y)
-    owner = np.full(mesh.tri.size, -1, np.int8)
-    for e in main.side:
-        owner[e] = MAIN
-    for e in auxiliary.side:
-        owner[e] = AUXILIARY
-    loop = np.full(mesh.x.size, -1, np.intp)
-    # 1. The outer boundary: what lies between the two curves is half the one's, half the other's.
-    first = e = main.side[0]
-    last, run = MAIN, np.empty(mesh.tri.size, np.intp)
-    count = 0
-    while True:
-        e = next_boundary_side(mesh, e)
-        if owner[e] >= 0:
-            half, so_far = 0.0, 0.0
-            for i in range(count):
-                half += side_length(mesh, run[i], scale_x, scale_y) / 2.0
-            for i in range(count - 1):
-                so_far += side_length(mesh, run[i], scale_x, scale_y)
-                loop[mesh.tri[next_side(run[i])]] = last if so_far <= half else owner[e]
-            last, count = owner[e], 0
-        else:
-            run[count] = e
-            count += 1
-        if e == first:
-            break
-    for v in auxiliary.vertex:
-        loop[v] = AUXILIARY
-    for v in main.vertex:
-        loop[v] = MAIN
-    # 2. Islands.
+    loop = shores_outside(mesh, main, auxiliary, scale_x, scale_y)
     number, first_island = AUXILIARY + 1, islands.is_main.size
     for k in range(islands.is_main.size):
         if loop[mesh.tri[islands.side[islands.start[k]]]] >= 0:
@@ -299,86 +268,6 @@ def nearest_vertex(mesh: Mesh, chain: Chain, v: int, scale_x: float, scale_y: fl
         if d < best:
             best, nearest = d, u
     return nearest
-
-
-# -- the way between the banks ---------------------------------------------------------------------
-
-
-@njit()
-def mixed_sides(mesh: Mesh, main: Chain, is_main: Bools) -> Ints:
-    """Return the mixed sides, the two on the boundary left out, in main's direction."""
-    way, count = np.empty(mesh.tri.size, np.intp), 0
-    # Along the boundary the first mixed side is the one at main's end, seen in this direction.
-    e = main.side[0]
-    for _ in range(mesh.tri.size):
-        if is_main[mesh.tri[e]] != is_main[mesh.tri[next_side(e)]]:
-            break
-        e = next_boundary_side(mesh, e)
-    while count < way.size:
-        other = next_side(e)
-        if is_main[mesh.tri[other]] == is_main[mesh.tri[next_side(other)]]:
-            other = previous_side(e)
-        e = mesh.twin[other]
-        if e < 0:
-            break
-        way[count] = e
-        count += 1
-    is_forward = mesh.tri[main.side[0]] == main.vertex[0]
-    return way[:count][::-1].copy() if is_forward else way[:count]
-
-
-@njit()
-def stops_on_way(
-    mesh: Mesh,
-    banks: Banks,
-    beads: Beads,
-    near: Ints,
-    way: Ints,
-    is_main: Bools,
-    is_trimmed: bool,
-    scale_x: float,
-    scale_y: float,
-) -> Stops:
-    """Return a point of the trunk on each mixed side, between the first and the last bead."""
-    n, last = way.size, beads.side.size - 1
-    point, at, nearest = (
-        np.empty((n + 2, 2)),
-        np.empty(n + 2, np.intp),
-        np.empty((n + 2, 2), np.intp),
-    )
-    for i in range(n):
-        p, q = mesh.tri[way[i]], mesh.tri[next_side(way[i])]
-        if not is_main[p]:
-            p, q = q, p
-        x, y = level_between(
-            banks, mesh.x[p] * scale_x, mesh.y[p] * scale_y,
-            mesh.x[q] * scale_x, mesh.y[q] * scale_y, 0.5,
-        )  # fmt: skip
-        point[i + 1, 0], point[i + 1, 1], at[i + 1] = x / scale_x, y / scale_y, -1 - way[i] // 3
-        nearest[i + 1, 0], nearest[i + 1, 1] = banks.last[0], banks.last[1]
-    low, high = 1, n + 1
-    if is_trimmed and n > 0:
-        low = nearest_step(point[1 : n + 1], beads.point[0], scale_x, scale_y) + 2
-        high = nearest_step(point[1 : n + 1], beads.point[last], scale_x, scale_y) + 2
-        high = max(low, high)
-    for row, bead in ((low - 1, 0), (high, last)):
-        point[row], at[row], nearest[row] = beads.point[bead], bead, near[bead]
-    return Stops(point[low - 1 : high + 1], at[low - 1 : high + 1], nearest[low - 1 : high + 1])
-
-
-@njit(borrows=True)
-def nearest_step(points: Floats, p: Floats, scale_x: float, scale_y: float) -> int:
-    """Which step of a chain of points is nearest to p: that from point k to the next; -1 before."""
-    best, nearest = np.inf, -1
-    for k in range(points.shape[0]):
-        d = length((points[k, 0] - p[0]) * scale_x, (points[k, 1] - p[1]) * scale_y)
-        if d < best:
-            best, nearest = d, k
-    before, beyond = max(nearest - 1, 0), min(nearest + 1, points.shape[0] - 1)
-    ux = (points[beyond, 0] - points[before, 0]) * scale_x
-    uy = (points[beyond, 1] - points[before, 1]) * scale_y
-    ahead = (p[0] - points[nearest, 0]) * scale_x * ux + (p[1] - points[nearest, 1]) * scale_y * uy
-    return nearest if ahead > 0.0 else nearest - 1
 
 
 # -- bridges ---------------------------------------------------------------------------------------

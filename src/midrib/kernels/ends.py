@@ -4,7 +4,9 @@ r"""The two ends of an area: where a person would say that it begins and ends.
 2. *Shape of an end*, around each of them:
 
      CAP  p------q   a straight run that both banks meet at 35 to 145 degrees: the end is its
-          |      |   middle, and the run belongs to neither curve
+          |      |   middle, and the run belongs to neither curve; a run longer than two mean
+          |      |   widths only if they meet it alike and the area behind it is about half as deep
+          |      |   as it is long, or deeper
      TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
            |    |    along both banks come out level
@@ -35,7 +37,10 @@ __all__ = [
 CAP, TIP, POINT = 0, 1, 2
 STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of its length
 LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
+ASKEW = 1.0  # sum of the cosines at which two banks meet a run: 30 degrees off square on average
 LEAST_CAP = 0.25  # of the mean width
+LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
+LEAST_DEPTH = 0.45  # of a long cap: real flanks have less behind their middles, waists more
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
 LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
@@ -183,11 +188,12 @@ def straight_run(x: Floats, y: Floats, start: int, step: int) -> int:
 
 
 @njit(borrows=True)
-def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
+def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> bool:
     """Whether the straight run from vertex p on to vertex q closes two banks like a lid.
 
     The banks' directions are taken over half the length of the run, so that roughness finer than
-    that does not matter.
+    that does not matter. A run much longer than the area is wide may also be a flank of a wider
+    end: the banks meet it askew, or the area is shallow behind it in the direction of both.
     """
     perimeter = arc[-1]
     cx, cy = x[q] - x[p], y[q] - y[p]
@@ -200,11 +206,36 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int) -> bool:
     u, v = length(ux, uy), length(vx, vy)
     if u <= 0.0 or v <= 0.0:
         return False
-    corner_p = abs(ux * cx + uy * cy) / (u * span) <= LEAST_CORNER
-    corner_q = abs(vx * cx + vy * cy) / (v * span) <= LEAST_CORNER
+    at_p, at_q = (ux * cx + uy * cy) / (u * span), (vx * cx + vy * cy) / (v * span)
     outward_p = ux * cy - uy * cx > 0.0  # the shell turns left, so the bank comes from the right
     outward_q = vx * cy - vy * cx > 0.0
-    return corner_p and corner_q and outward_p and outward_q
+    if max(abs(at_p), abs(at_q)) > LEAST_CORNER or not (outward_p and outward_q):
+        return False
+    if span <= LONG_CAP * width:
+        return True
+    inward_x, inward_y = -(ux / u + vx / v), -(uy / u + vy / v)
+    is_deep = depth_behind(x, y, p, q, inward_x, inward_y) >= LEAST_DEPTH * span
+    return is_deep and abs(at_p + at_q) <= ASKEW
+
+
+@njit(borrows=True)
+def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> float:
+    """How far along u from the middle of a run, vertex p to vertex q, the shell comes again."""
+    n, depth = x.size, np.inf
+    mx, my, size = (x[p] + x[q]) / 2.0, (y[p] + y[q]) / 2.0, length(ux, uy)
+    least = STRAIGHT * length(x[q] - x[p], y[q] - y[p])  # nearer is the run itself
+    for i in range(n):
+        j = i + 1 if i + 1 < n else 0
+        at_i = (x[i] - mx) * uy - (y[i] - my) * ux
+        at_j = (x[j] - mx) * uy - (y[j] - my) * ux
+        if (at_i < 0.0) == (at_j < 0.0):
+            continue
+        t = at_i / (at_i - at_j)
+        hx, hy = x[i] + t * (x[j] - x[i]) - mx, y[i] + t * (y[j] - y[i]) - my
+        way = (hx * ux + hy * uy) / size
+        if way > least:
+            depth = min(depth, way)
+    return depth
 
 
 @njit(borrows=True)
@@ -222,7 +253,7 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
     if through != vertex:
         backward, forward = behind, through
         span = length(x[forward] - x[backward], y[forward] - y[backward])
-        if least <= span and is_cap(x, y, arc, backward, forward):
+        if least <= span and is_cap(x, y, arc, backward, forward, width):
             return backward, forward
     nearest, shortest, cap_p, cap_q = width, np.inf, -1, -1
     for step in (1, -1):
@@ -232,7 +263,7 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
             span = length(x[far] - x[near], y[far] - y[near])
             p, q = (near, far) if step == 1 else (far, near)
             is_better = way < nearest or span < shortest
-            if least <= span and is_better and is_cap(x, y, arc, p, q):
+            if least <= span and is_better and is_cap(x, y, arc, p, q, width):
                 nearest, shortest, cap_p, cap_q = way, span, p, q
                 break
             near, way = far, way + span

@@ -26,6 +26,7 @@ from midrib.kernels.banks import (
     level_from,
     look_between,
     look_everywhere,
+    way_from_nearer,
     way_to_level,
 )
 from midrib.kernels.chain import Chain
@@ -47,9 +48,10 @@ from midrib.kernels.paths import (
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
+from midrib.kernels.ways import Stops, is_of_main, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
-__all__ = ["APART", "SHARE_OF_SLACK", "Stops", "ends_of", "trace", "trace_trunk"]
+__all__ = ["APART", "SHARE_OF_SLACK", "ends_of", "trace", "trace_trunk"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -58,7 +60,7 @@ APART = 2.0**-4  # of the tolerance: points that are nearer to each other are on
 DEPTH = 12  # halvings of the way between two radii
 GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
 BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
-GOOD, STUCK = -1.0, -2.0  # in place of where a probe is
+CROWDED = 2.0**-3  # of a way: a point so near to an end of it hardly divides it
 TINY = 2.0**-1000
 RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
@@ -78,14 +80,6 @@ class Ends(NamedTuple):
     reach_1: float
 
 
-class Stops(NamedTuple):
-    """Points that the trunk goes by, in order."""
-
-    point: Floats  # (n, 2)
-    at: Ints  # the bead that each is, or -1 - (the triangle it is in)
-    nearest: Ints  # (n, 2) segments of the main and of the auxiliary bank
-
-
 @njit(entry=True)
 def trace_trunk(
     mesh: Mesh,
@@ -96,6 +90,7 @@ def trace_trunk(
     end: Floats,
     end_origin: Floats,
     end_at: Ints,
+    is_trimmed: bool,
     tolerance: float,
     scale_x: float,
     scale_y: float,
@@ -108,6 +103,7 @@ def trace_trunk(
     main, auxiliary : the two banks
     points, at : radii, as ``draw_radii`` returns them
     end, end_origin, end_at : end points, as in ``join_middles``
+    is_trimmed : whether the ends may lie farther in than the ends of the two banks
     tolerance : how far (in lengths) a probe may be from the trunk
     scale_x, scale_y : lengths of one unit of x and of y
 
@@ -121,16 +117,11 @@ def trace_trunk(
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
     slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
-    loops = no_loops()
-    kept = beads_in_order(points[:, 4], first, n)
-    path, source = beads.point[kept], kept
-    if has_islands(mesh, main, auxiliary):
+    loops, kept = no_loops(), beads_in_order(points[:, 4], first, n)
+    with_islands = has_islands(mesh, main, auxiliary)
+    if with_islands:
         some = Beads(beads.point[kept], beads.origin[kept], beads.side[kept], beads.vertex[kept])
-        joined = join_beads(mesh, some, scale_x, scale_y)
-        path, source = joined.points, joined.source
-        for k in range(source.size):
-            if source[k] >= 0:
-                source[k] = kept[source[k]] if source[k] < kept.size else n
+        path = join_beads(mesh, some, scale_x, scale_y).points
         loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
@@ -146,7 +137,11 @@ def trace_trunk(
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
         near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
-    stops = stops_on(mesh, banks, beads, near, path, source, scale_x, scale_y)
+    stops = Stops(beads.point[kept], kept, near[kept])
+    if with_islands:
+        shore = shores_outside(mesh, main, auxiliary, scale_x, scale_y)
+        is_main = is_of_main(shore, mesh, loops)
+        stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)
     if loops.wall_is_main.size > 0:
         banks, point, stop_at, before = land(
@@ -190,50 +185,6 @@ def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
     if ends > 0:
         kept[0], kept[longest + 1] = 0, n - 1
     return kept
-
-
-@njit()
-def stops_on(
-    mesh: Mesh,
-    banks: Banks,
-    beads: Beads,
-    near: Ints,
-    path: Floats,
-    source: Ints,
-    scale_x: float,
-    scale_y: float,
-) -> Stops:
-    """Return the points that the trunk goes by.
-
-    Beads, and where the path turns at a wall a point of the trunk opposite: so that the trunk
-    passes islands on the side where the path does.
-    """
-    n, last = source.size, beads.side.size - 1
-    point, at, count = np.empty((n + 1, 2)), np.empty(n + 1, np.intp), 0
-    nearest = np.empty((n + 1, 2), np.intp)
-    for k in range(n):
-        if source[k] > last:
-            continue
-        if source[k] >= 0:
-            point[count, 0], point[count, 1] = beads.point[source[k], 0], beads.point[source[k], 1]
-            at[count] = source[k]
-            nearest[count, 0], nearest[count, 1] = near[source[k], 0], near[source[k], 1]
-            count += 1
-        elif 0 < k < n - 1:
-            t, x, y = opposite_turn(
-                mesh, banks, -1 - source[k], path[k - 1, 0], path[k - 1, 1],
-                path[k + 1, 0], path[k + 1, 1], scale_x, scale_y,
-            )  # fmt: skip
-            if t >= 0:
-                point[count, 0], point[count, 1], at[count] = x, y, -1 - t
-                nearest[count, 0], nearest[count, 1] = banks.last[0], banks.last[1]
-                count += 1
-    if count == 0 or at[count - 1] != last:  # a loop that was cut must not take the end with it
-        point[count, 0], point[count, 1] = beads.point[last, 0], beads.point[last, 1]
-        at[count] = last
-        nearest[count, 0], nearest[count, 1] = near[last, 0], near[last, 1]
-        count += 1
-    return Stops(point[:count], at[:count], nearest[:count])
 
 
 @njit(borrows=True)
@@ -349,14 +300,18 @@ def trace(
                             mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
                         )
                 else:
-                    end = goal_at[top, 0]
+                    before_wall, end = end, goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
                     turns = pull_tight(mesh, sleeve, px, py, qx, qy)
                     look_everywhere(banks)
-                    if depth < DEPTH and turns.size > 0:
+                    if depth < DEPTH:
                         between, mx, my = opposite_middle_turn(
                             mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
                         )
+                        if between < 0 and obstacle >= 0:
+                            between, mx, my = opposite_wall(
+                                mesh, banks, before_wall, obstacle, px, py, qx, qy, scale_x, scale_y
+                            )
                 is_old = is_near(mx, my, px, py, apart, scale_x, scale_y) or is_near(
                     mx, my, qx, qy, apart, scale_x, scale_y
                 )
@@ -497,38 +452,51 @@ def point_beside(
     """Return the triangle and place of a point of the trunk beside the way from p in t to q.
 
     It is where the way is farthest off, or where either half of it is, if that cannot be reached;
-    -1 if the way is good enough or no point can be.
+    -1 if the way is good enough or no point can be. Points that crowd p or q come last.
     """
+    best, best_x, best_y, most = -1, 0.0, 0.0, 0.0
+    enough = CROWDED * length((qx - px) * scale_x, (qy - py) * scale_y)
     for k in range(3):
         low, high = (0.0, 1.0) if k == 0 else (0.0, 0.5) if k == 1 else (0.5, 1.0)
         ax, ay = px + low * (qx - px), py + low * (qy - py)
         bx, by = px + high * (qx - px), py + high * (qy - py)
-        at, x, y = worst_probe(
+        at, lean = worst_probe(
             banks, ends, ax * scale_x, ay * scale_y, bx * scale_x, by * scale_y, tolerance
         )
-        if at == GOOD and k == 0:
+        if at < 0.0 and k == 0:
             break
-        if at > 0.0:
+        hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
+        for is_away in (False, True):
+            if at < 0.0:
+                continue
+            ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
+            if is_away:
+                ux, uy = way_from_nearer(lean, hx * scale_x, hy * scale_y)
+            is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
             x, y = x / scale_x, y / scale_y
-            hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
-            end = walk_by(mesh, t, px, py, hx, hy, x, y)
-            if end >= 0:
+            end = walk_by(mesh, t, px, py, hx, hy, x, y) if is_found else -1
+            to_p = length((x - px) * scale_x, (y - py) * scale_y)
+            to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
+            if end >= 0 and min(to_p, to_q) >= enough:
                 return end, x, y
-    return -1, 0.0, 0.0
+            if end >= 0 and min(to_p, to_q) > most:
+                best, best_x, best_y, most = end, x, y, min(to_p, to_q)
+    if best >= 0:
+        lean_at(banks, best_x * scale_x, best_y * scale_y)  # its feet are the last ones
+    return best, best_x, best_y
 
 
 @njit(borrows=True)
 def worst_probe(
     banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
-) -> tuple[float, float, float]:
-    """Return where (0 at p, 1 at q) the way is farthest off the trunk, and the trunk's point there.
+) -> tuple[float, Lean]:
+    """Return where (0 at p, 1 at q) the way is farthest off the trunk, and how it leans there.
 
-    GOOD where no probe is off by more than is allowed, STUCK where the worst cannot be moved.
+    -1 where no probe is off by more than is allowed.
     """
     span = length(qx - px, qy - py)
     probes, k = 1, 0
-    worst, at = tolerance, GOOD
-    wx, wy, worst_lean = 0.0, 0.0, NOWHERE
+    worst, at, worst_lean = tolerance, -1.0, NOWHERE
     while k < probes:
         share = (k + 1.0) / (probes + 1.0)
         x, y = px + share * (qx - px), py + share * (qy - py)
@@ -544,11 +512,8 @@ def worst_probe(
         _, _, off = way_to_level(lean, x, y)
         off -= allowance(ends, x, y)
         if off > worst:
-            worst, at, wx, wy, worst_lean = off, share, x, y, lean
-    if at > 0.0:
-        is_found, wx, wy = level_from(banks, worst_lean, wx, wy)
-        at = at if is_found else STUCK
-    return at, wx, wy
+            worst, at, worst_lean = off, share, lean
+    return at, worst_lean
 
 
 @njit(borrows=True)
@@ -577,10 +542,47 @@ def opposite_middle_turn(
     scale_x: float,
     scale_y: float,
 ) -> tuple[int, float, float]:
-    """Return ``opposite_turn`` for the middle one of the turns on the way from p to q."""
+    """Return ``opposite_turn`` for the middle one of the turns, if any, from p to q."""
+    if turns.size == 0:
+        return -1, 0.0, 0.0
     k = turns.size // 2
     if k > 0:
         px, py = mesh.x[turns[k - 1]], mesh.y[turns[k - 1]]
     if k + 1 < turns.size:
         qx, qy = mesh.x[turns[k + 1]], mesh.y[turns[k + 1]]
     return opposite_turn(mesh, banks, turns[k], px, py, qx, qy, scale_x, scale_y)
+
+
+@njit(borrows=True)
+def opposite_wall(
+    mesh: Mesh,
+    banks: Banks,
+    t: int,
+    wall: int,
+    px: float,
+    py: float,
+    qx: float,
+    qy: float,
+    scale_x: float,
+    scale_y: float,
+) -> tuple[int, float, float]:
+    """Return the triangle and place where the way from a wall to the other bank meets the trunk.
+
+    ``wall`` is the boundary side of triangle t that stops the way from p to q; -1 if nowhere.
+    The trunk passes on the wall's other side than the bank that it is of, where the shortest way
+    may not: islands go with a bank.
+    """
+    a, b = mesh.tri[wall], mesh.tri[next_side(wall)]
+    ax, ay, bx, by = mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b]
+    share = ray_meets_side(px, py, qx, qy, ax, ay, bx, by)
+    if not 0.0 <= share <= 1.0:
+        return -1, 0.0, 0.0
+    hx, hy = ax + share * (bx - ax), ay + share * (by - ay)
+    lean = lean_at(banks, hx * scale_x, hy * scale_y)
+    if is_level(lean, banks.slack):
+        return -1, 0.0, 0.0
+    ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
+    is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
+    x, y = x / scale_x, y / scale_y
+    end, obstacle = walk(mesh, t, -1, hx, hy, x, y)
+    return end if is_found and obstacle == -1 else -1, x, y
