@@ -87,9 +87,9 @@ vertex of the main curve: stations that each needs, CPU milliseconds for one are
 triangulation included, and the ratio of the two times. The aim is a ratio of 2.
 
 Along most sides a glance is enough: a search of the boxes next to the last answer, and one sight.
-Where that sight is blocked, P walks through every window that opens anywhere along the side, and
-that costs more than one look from its ends: in the star, behind whose spikes little is seen, many
-times more.
+Where that sight is blocked, P walks through every window that opens anywhere along the side: three
+to four times as many as from one point. That costs more than one look from its ends only where most
+sights are blocked: in the star of 1,000 vertices, behind whose spikes the curve has 3,025 pieces.
 
 Written by `python benchmarks/limit.py` on {machine_text()}.
 

@@ -273,6 +273,25 @@ def test_behind_a_named_tooth_the_nearest_point_is_suddenly_far() -> None:
     check_against_samples(strip, 0.0)
 
 
+def test_a_way_past_an_island_stays_on_its_side() -> None:
+    r"""Where Q jumps an island is in the way: the curve passes above it, a straight one below.
+
+       Q ._                 _. Q         tolerance 1.1, more than the knots are off the way below
+            \    over     /
+       S .       <>       . S            over the island it is 1.7 off
+    --------- P ---------
+    """
+    main = LineString([(-30, 0), (30, 0)])
+    other = LineString([(-30, 6), (-6, 8), (-1, 20), (1, 20), (6, 8), (30, 6)])
+    island = [(-0.3, 4), (0, 3.2), (0.3, 4), (0, 4.7)]
+    area = Polygon([*main.coords, *other.coords[::-1]], [island])
+    strip, tolerance = Strip(main, other, area), 1.1
+    exact, curve = limit(strip, 0.0), limit(strip, tolerance)
+    assert exact.line.distance(Point(0, 4.7)) == 0.0
+    assert curve.line.distance(Point(0, 4.7)) == 0.0
+    assert shapely.hausdorff_distance(exact.line, curve.line, 0.01) <= tolerance
+
+
 @pytest.mark.parametrize("power", [-200, -31, 1, 60, 200])
 @pytest.mark.parametrize("name", ["L", "chevron", "comb", "river_with_island"])
 def test_doubling_is_exact(name: str, power: int) -> None:

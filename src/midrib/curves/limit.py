@@ -112,6 +112,7 @@ def trace(layout: Layout, tolerance: float, limits: Limits) -> Radii:
     main, mesh = layout.main, layout.mesh
     n_vertices = main.arc.size + layout.auxiliary.arc.size
     count = default_count(main.length, layout.mean_width, n_vertices)
+    count = min(count, layout.auxiliary.arc.size)  # a look along much less finds no more
     own = np.union1d(np.arange(count + 1) * (main.length / count), limits.cuts())
     stations, _, segment, _ = place_stations(
         own, True, SAME_STATION * main.length, main.arc, main.vertex, mesh.x, mesh.y

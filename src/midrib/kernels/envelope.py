@@ -31,12 +31,13 @@ __all__ = [
     "Walk",
     "farthest_between",
     "has_room",
-    "is_idle",
+    "is_lower",
     "is_same_motion",
     "lower_by",
     "new_motions",
     "place_at",
     "squared_distance",
+    "where_farther",
 ]
 
 MOST_OFFERS = 64
@@ -153,21 +154,21 @@ def bound_distance(walk: Walk, row: Floats, k: int) -> float:
 
 
 @njit(borrows=True)
-def is_idle(walk: Walk, row: Floats, work: Floats, count: int, k: int) -> bool:
-    """Whether a motion is nowhere nearer than the envelope's farthest piece beside it.
+def is_lower(walk: Walk, row: Floats, work: Floats, count: int, k: int) -> bool:
+    """Cut a motion to where it may be nearer than the envelope; whether something is left.
 
-    Not asked of grazes.
+    Grazes are left whole.
     """
-    a, b = row[k, 0], row[k, 1]
-    if not vectors_of(walk, row, k, a, b, work, 0):
-        return False
+    if not vectors_of(walk, row, k, row[k, 0], row[k, 1], work, 0):
+        return True
     x, y = work[0, 0], work[0, 1]
     dx, dy = work[0, 2] - x, work[0, 3] - y
     length_squared = dx * dx + dy * dy
     if length_squared > 0.0:
         share = min(max(-(x * dx + y * dy) / length_squared, 0.0), 1.0)
         x, y = x + share * dx, y + share * dy
-    return x * x + y * y > farthest_between(row, count, a, b)
+    row[k, 0], row[k, 1] = where_farther(row, count, row[k, 0], row[k, 1], x * x + y * y)
+    return row[k, 0] < row[k, 1]
 
 
 # -- two of them -----------------------------------------------------------------------------------
@@ -257,13 +258,28 @@ def farthest_between(row: Floats, count: int, a: float, b: float) -> float:
     has to search the whole area for it.
     """
     reached, most = a + SLIVER, 0.0
-    for k in range(count):
+    for k in range(first_piece(row, count, a), count):
         if row[k, 1] <= a:
             continue
         if row[k, 0] > reached or reached >= b:
             break
         most, reached = max(most, row[k, 10]), row[k, 1] + SLIVER
     return most if reached >= b else np.inf
+
+
+@njit(borrows=True)
+def where_farther(row: Floats, count: int, a: float, b: float, least: float) -> tuple[float, float]:
+    """Return what is left of a to b without its ends in which the envelope is nearer than least.
+
+    Nothing is left where no more than a sliver is.
+    """
+    k = first_piece(row, count, a)
+    while k < count and row[k, 0] <= a + SLIVER and a < b and row[k, 10] < least:
+        a, k = max(a, row[k, 1]), k + 1
+    k = min(first_piece(row, count, b), count - 1)
+    while k >= 0 and row[k, 1] >= b - SLIVER and a < b and row[k, 10] < least:
+        b, k = min(b, row[k, 0]), k - 1
+    return (a, b) if b - a > SLIVER else (b, b)
 
 
 @njit(borrows=True)
@@ -290,14 +306,31 @@ def put(
 
 @njit(borrows=True)
 def lower_by(walk: Walk, row: Floats, at: Ints, work: Floats, base: int, count: int, i: int) -> int:
-    """Lower the envelope by motion i from where it begins to where it ends; the new count."""
+    """Lower the envelope by motion i from where it begins to where it ends; the new count.
+
+    Only the pieces that it meets are written anew; those behind them are moved.
+    """
     low, high, total = row[i, 0], row[i, 1], base
-    for k in range(count + 1):
+    first = first_piece(row, count, low)
+    if first < count and row[first, 1] == low and not is_same_motion(row, at, first, row, at, i):
+        first += 1
+    last = first
+    while last < count and row[last, 0] < high:
+        last += 1
+    if last < count and row[last, 0] == high and is_same_motion(row, at, last, row, at, i):
+        last += 1
+    if first == last:
+        for k in range(count - 1, first - 1, -1):
+            copy_motion(row, at, k, k + 1)
+        copy_motion(row, at, i, first)
+        row[first, 10] = bound_distance(walk, row, first)
+        return count + 1
+    for k in range(first, last + 1):
         # 1. Pieces before and behind stay; what nothing covers is new.
-        a, b = (row[k, 0], row[k, 1]) if k < count else (high, high)
+        a, b = (row[k, 0], row[k, 1]) if k < last else (high, high)
         if b > low:
             total = put(walk, row, at, base, total, low, min(a, high), i)
-        if k == count:
+        if k == last:
             break
         total = put(walk, row, at, base, total, a, min(b, max(a, low)), k)
         # 2. Where both are there, the nearer one stays, from tie to tie.
@@ -306,12 +339,39 @@ def lower_by(walk: Walk, row: Floats, at: Ints, work: Floats, base: int, count: 
             total = put_nearer(walk, row, at, work, base, total, start, stop, k, i)
         total = put(walk, row, at, base, total, max(a, min(b, stop)), b, k)
         low = max(low, stop)
+    # 3. The new ones take the place of the old ones.
+    more = first + total - base - last
+    if more > 0:
+        for k in range(count - 1, last - 1, -1):
+            copy_motion(row, at, k, k + more)
+    elif more < 0:
+        for k in range(last, count):
+            copy_motion(row, at, k, k + more)
     for k in range(total - base):
-        for column in range(11):
-            row[k, column] = row[base + k, column]
-        for column in range(5):
-            at[k, column] = at[base + k, column]
-    return total - base
+        copy_motion(row, at, base + k, first + k)
+    return count + more
+
+
+@njit(borrows=True)
+def copy_motion(row: Floats, at: Ints, k: int, to: int) -> None:
+    """Copy a row of the tables."""
+    for column in range(11):
+        row[to, column] = row[k, column]
+    for column in range(5):
+        at[to, column] = at[k, column]
+
+
+@njit(borrows=True)
+def first_piece(row: Floats, count: int, t: float) -> int:
+    """Return the first piece that does not end before t; their number if there is none."""
+    first, last = 0, count
+    while first < last:
+        middle = (first + last) // 2
+        if row[middle, 1] < t:
+            first = middle + 1
+        else:
+            last = middle
+    return first
 
 
 @njit(borrows=True)

@@ -16,8 +16,8 @@ or more around each point that they come through. Thus Q is seen; and nothing at
 
 Where Q jumps from one segment to the next, around a corner, it might as well walk there while P
 waits: in the same sense as before. Where it jumps otherwise, one loop ends and one begins. A hole
-that a loop winds around lies within its reach, with sides that are on neither curve: for the hole
-of a curve itself is on the wrong side of P, or of Q.
+that a loop winds around lies in the box around the loop, with vertices whose sides are on neither
+curve: for the hole of a curve itself is on the wrong side of P, or of Q.
 
 Where a sight is not free or along P's own wall, where limits cut what is near or a hole may be in
 between, the answer is left to ``look_along``: it is the same, but takes longer.
@@ -27,14 +27,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.boxtree import FOOT, LEAF, VERTEX, box_tree, squared_distance_to_box
+from midrib.kernels.boxtree import FOOT, LEAF, VERTEX, box_tree
 from midrib.kernels.chain import Chain, Goal, slack_of
-from midrib.kernels.clearance import nearest_of
 from midrib.kernels.envelope import (
     Walk,
     farthest_between,
     has_room,
-    is_idle,
+    is_lower,
     lower_by,
     place_at,
     squared_distance,
@@ -47,7 +46,7 @@ from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import sees, squared_distance_to_side
 from midrib.kernels.windows import spot_at
-from midrib.types import Bools, Floats, Ints
+from midrib.types import Floats, Ints
 
 __all__ = ["UNSURE", "Others", "glance_along", "is_without_holes", "others_of"]
 
@@ -56,11 +55,10 @@ A_BIT_FARTHER = 1.0 + 2.0**-20  # of a squared distance: more than what rounding
 
 
 class Others(NamedTuple):
-    """Boundary sides that are on neither curve, with links between them; see ``clearance``."""
+    """Vertices with a boundary side that is on neither curve, and boxes over runs of them."""
 
-    x: Floats  # in lengths, as y and boxes
+    x: Floats
     y: Floats
-    goes_on: Bools  # whether a segment is a side, not a link
     boxes: Floats
 
 
@@ -70,24 +68,21 @@ def others_of(mesh: Mesh, main: Chain, goal: Goal) -> Others:
     is_main = np.zeros(mesh.tri.size, np.bool_)
     for e in main.side:
         is_main[e] = True
-    x, y, count = np.empty(mesh.tri.size + 2), np.empty(mesh.tri.size + 2), 0
+    x, y, count = np.empty(mesh.x.size + 1), np.empty(mesh.x.size + 1), 0
     if not is_without_holes(mesh):
         for v in range(mesh.x.size):
             e = mesh.door[v]
             while e >= 0:
                 if goal.segment[e] < 0 and not is_main[e]:
-                    w = mesh.tri[next_side(e)]
-                    x[count], y[count] = mesh.x[v] * goal.scale_x, mesh.y[v] * goal.scale_y
-                    x[count + 1], y[count + 1] = mesh.x[w] * goal.scale_x, mesh.y[w] * goal.scale_y
-                    count += 2
+                    x[count], y[count] = mesh.x[v], mesh.y[v]
+                    count += 1
+                    break
                 e = mesh.other_door[e]
-    x, y = x[:count], y[:count]
     if count == 0:
-        return Others(x, y, np.zeros(0, np.bool_), np.empty((0, 4)))
-    goes_on = np.zeros(count, np.bool_)
-    for i in range(0, count, 2):
-        goes_on[i] = True
-    return Others(x, y, goes_on, box_tree(x, y))
+        return Others(x[:0], y[:0], np.empty((0, 4)))
+    x[count], y[count] = x[count - 1], y[count - 1]  # of a single one boxes have a side too
+    x, y = x[: count + 1], y[: count + 1]
+    return Others(x, y, box_tree(x, y))
 
 
 @njit(borrows=True)
@@ -106,7 +101,7 @@ def is_without_holes(mesh: Mesh) -> bool:
     return 2 * vertices - mesh.tri.size // 3 - boundary == 2
 
 
-@njit(borrows=True)
+@njit(inline=True, borrows=True)
 def glance_along(
     mesh: Mesh,
     goal: Goal,
@@ -126,18 +121,15 @@ def glance_along(
     ``hint`` is a segment of the curve near the answer. ``seen`` holds Q of a sight from the start
     that is known to be free, if any, else NaN; then that from the stop. O(log n) near the hint.
     """
-    count = lowest_along(goal, mesh, walk, start, stop, limit, hint, outlook, stack)
-    if count > 0 and not (
-        is_apart(others, walk, start, stop, outlook, count, stack)
-        and is_seen(mesh, goal, walk, side, seen, outlook, count)
-    ):
+    count = lowest_along(goal, mesh, walk, start, stop, limit, hint, seen, outlook, stack)
+    if count > 0 and not is_seen(mesh, goal, others, walk, side, seen, outlook, count, stack):
         count = UNSURE
     if count <= 0:
         seen[0] = seen[1] = np.nan
     return count
 
 
-@njit(borrows=True)
+@njit(inline=True, borrows=True)
 def lowest_along(
     goal: Goal,
     mesh: Mesh,
@@ -146,20 +138,25 @@ def lowest_along(
     stop: float,
     limit: Floats,
     hint: int,
+    seen: Floats,
     outlook: Outlook,
     stack: Ints,
 ) -> int:
     """Write the envelope of the whole curve, seen or not; the number of pieces."""
     row, at, work, base = outlook.motions
-    x, y, boxes, arc = goal.x, goal.y, goal.boxes, goal.chain.arc
+    x, y, boxes, arc, sides = goal.x, goal.y, goal.boxes, goal.chain.arc, goal.chain.side
     low, high = max(limit[0], limit[1]), min(limit[2], limit[3])
-    middle, half = (start + stop) / 2.0, (stop - start) / 2.0
-    px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
-    reach = half * length(walk.bx - walk.ax, walk.by - walk.ay)
-    leaves, first = boxes.shape[0] // 2, 2 * base
-    # Up the tree of boxes from the hint, and down where something can be nearer: P is at most
-    # ``reach`` from the middle, so that much nearer than seen from there.
-    count, bound, depth, top = 0, np.inf, 1, leaves + hint // LEAF
+    run_x, run_y = walk.bx - walk.ax, walk.by - walk.ay
+    px, py = walk.ax + start * run_x, walk.ay + start * run_y
+    qx, qy = walk.ax + stop * run_x, walk.ay + stop * run_y
+    leaves, first, last = boxes.shape[0] // 2, 2 * base, x.size - 2
+    # 1. Nothing that matters is farther than what is known from the start, and the way.
+    bound, step = np.inf, length(qx - px, qy - py)
+    if seen[0] == seen[0]:
+        off = length(seen[0] * goal.scale_x - px, seen[1] * goal.scale_y - py)
+        bound = (off + step + goal.tie) ** 2 * A_BIT_FARTHER
+    # 2. Up the tree of boxes from the hint, and down where something can be nearer.
+    count, depth, top = 0, 1, leaves + hint // LEAF
     stack[0] = top
     while depth > 0 or top > 1:
         if depth == 0:
@@ -167,75 +164,92 @@ def lowest_along(
             top //= 2
         depth -= 1
         node = stack[depth]
-        if squared_distance_to_box(px, py, boxes, node) > bound:
+        if squared_gap(px, py, qx, qy, boxes, node) > bound:
             continue
         if node < leaves:
-            left = squared_distance_to_box(px, py, boxes, 2 * node)
-            right = squared_distance_to_box(px, py, boxes, 2 * node + 1)
+            left = squared_gap(px, py, qx, qy, boxes, 2 * node)
+            right = squared_gap(px, py, qx, qy, boxes, 2 * node + 1)
             nearer = 2 * node if left <= right else 2 * node + 1
             stack[depth], stack[depth + 1] = 4 * node + 1 - nearer, nearer
             depth += 2
             continue
+        # 3. A segment offers P's foot, and its start where the feet on both sides are beyond it.
         begin = (node - leaves) * LEAF
-        for j in range(begin, min(begin + LEAF, x.size - 1)):
-            ux, uy, vx, vy = x[j], y[j], x[j + 1], y[j + 1]
-            if squared_distance_to_side(px, py, ux, uy, vx, vy, 1.0, 1.0) > bound:
-                continue
-            e = goal.chain.side[j]
-            if e < 0 or arc[j] < low or arc[j + 1] > high:
-                return UNSURE
-            offers = offer_segment(goal, mesh, walk, j, start, stop, row, at, first)
-            for i in range(first, first + offers):
-                if is_idle(walk, row, work, count, i):
+        _, _, before_a, before_b = feet_on(x, y, walk, max(begin - 1, 0))
+        most_before = max(between(before_a, before_b, start), between(before_a, before_b, stop))
+        for j in range(begin, min(begin + LEAF, last + 1)):
+            if sides[j] < 0 or arc[j] < low or arc[j + 1] > high:
+                off = squared_distance_to_side(
+                    (px + qx) / 2.0, (py + qy) / 2.0, x[j], y[j], x[j + 1], y[j + 1], 1.0, 1.0
+                )
+                if np.sqrt(off) <= np.sqrt(bound) + step:
+                    return UNSURE
+            foot_a, foot_b, beyond_a, beyond_b = feet_on(x, y, walk, j)
+            foot = min(between(foot_a, foot_b, start), between(foot_a, foot_b, stop))
+            most = max(between(foot_a, foot_b, start), between(foot_a, foot_b, stop))
+            beyond = min(between(beyond_a, beyond_b, start), between(beyond_a, beyond_b, stop))
+            for k in range(3):
+                if k == 0:
+                    if most <= 0.0 or beyond >= 0.0:
+                        continue
+                    from_t, to_t = below(-foot_a, -foot_b, start, stop)
+                    from_t, to_t = below(beyond_a, beyond_b, from_t, to_t)
+                elif k == 1:
+                    if foot > 0.0 or (j > 0 and most_before < 0.0):
+                        continue
+                    from_t, to_t = below(foot_a, foot_b, start, stop)
+                    if j > 0:
+                        from_t, to_t = below(-before_a, -before_b, from_t, to_t)
+                elif j == last:
+                    from_t, to_t = below(-beyond_a, -beyond_b, start, stop)
+                else:
+                    break
+                if not from_t < to_t:
+                    continue
+                write_offer(mesh, goal, j, k, from_t, to_t, foot_a, foot_b, row, at, first)
+                if not is_lower(walk, row, work, count, first):
                     continue
                 if not has_room(base, count):
                     return -1
-                count = lower_by(walk, row, at, work, base, count, i)
-            bound = np.sqrt(farthest_between(row, count, start, stop)) + reach
-            bound *= bound * A_BIT_FARTHER
-    return count
+                count = lower_by(walk, row, at, work, base, count, first)
+                bound = np.sqrt(farthest_between(row, count, start, stop)) + goal.tie
+                bound *= bound * A_BIT_FARTHER
+            before_a, before_b = beyond_a, beyond_b
+            most_before = max(between(beyond_a, beyond_b, start), between(beyond_a, beyond_b, stop))
+    return count if count > 0 and bound < np.inf else UNSURE  # rounding may leave a crack
 
 
 @njit(borrows=True)
-def is_apart(
-    others: Others,
-    walk: Walk,
-    start: float,
-    stop: float,
-    outlook: Outlook,
-    count: int,
-    stack: Ints,
-) -> bool:
-    """Whether no hole is within the reach of sights."""
-    if others.x.size == 0:
-        return True
-    middle, half = (start + stop) / 2.0, (stop - start) / 2.0
-    px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
-    reach = half * length(walk.bx - walk.ax, walk.by - walk.ay)
-    reach += np.sqrt(farthest_between(outlook.motions.row, count, start, stop))
-    x, y, goes_on, boxes = others
-    _, _, squared = nearest_of(px, py, x, y, goes_on, boxes, 0, stack)
-    return squared > reach * reach * A_BIT_FARTHER
+def squared_gap(px: float, py: float, qx: float, qy: float, boxes: Floats, node: int) -> float:
+    """Squared distance from the box around p q to a node's box, inf for an empty one."""
+    dx = max(boxes[node, 0] - max(px, qx), min(px, qx) - boxes[node, 2], 0.0)
+    dy = max(boxes[node, 1] - max(py, qy), min(py, qy) - boxes[node, 3], 0.0)
+    return dx * dx + dy * dy
 
 
 @njit(borrows=True)
-def feet_on(goal: Goal, walk: Walk, j: int) -> tuple[float, float]:
-    """Shares of P's foot on the line of a segment of the curve, for P at 0 and at 1."""
-    ux, uy = goal.x[j], goal.y[j]
-    dx, dy = goal.x[j + 1] - ux, goal.y[j + 1] - uy
+def feet_on(x: Floats, y: Floats, walk: Walk, j: int) -> tuple[float, float, float, float]:
+    """How far P's foot on a segment is from its start, and beyond its end, for P at 0 and at 1.
+
+    Times the segment's length.
+    """
+    dx, dy = x[j + 1] - x[j], y[j + 1] - y[j]
     squared = dx * dx + dy * dy
-    if squared == 0.0:
-        return 0.0, 0.0
-    return (
-        ((walk.ax - ux) * dx + (walk.ay - uy) * dy) / squared,
-        ((walk.bx - ux) * dx + (walk.by - uy) * dy) / squared,
-    )
+    foot_a = (walk.ax - x[j]) * dx + (walk.ay - y[j]) * dy
+    foot_b = (walk.bx - x[j]) * dx + (walk.by - y[j]) * dy
+    return foot_a, foot_b, foot_a - squared, foot_b - squared
+
+
+@njit(borrows=True)
+def between(at_a: float, at_b: float, t: float) -> float:
+    """Value of a linear function."""
+    return at_a + t * (at_b - at_a)
 
 
 @njit(borrows=True)
 def below(at_a: float, at_b: float, least: float, most: float) -> tuple[float, float]:
     """Return the part of an interval in which a linear function is not positive."""
-    at_least, at_most = at_a + least * (at_b - at_a), at_a + most * (at_b - at_a)
+    at_least, at_most = between(at_a, at_b, least), between(at_a, at_b, most)
     if at_least <= 0.0 and at_most <= 0.0:
         return least, most
     if at_least > 0.0 and at_most > 0.0:
@@ -244,77 +258,62 @@ def below(at_a: float, at_b: float, least: float, most: float) -> tuple[float, f
     return (least, root) if at_least <= 0.0 else (root, most)
 
 
-@njit(borrows=True)
-def offer_segment(
-    goal: Goal,
+@njit(inline=True, borrows=True)
+def write_offer(
     mesh: Mesh,
-    walk: Walk,
+    goal: Goal,
     j: int,
-    start: float,
-    stop: float,
+    k: int,
+    from_t: float,
+    to_t: float,
+    foot_a: float,
+    foot_b: float,
     row: Floats,
     at: Ints,
-    i: int,
-) -> int:
-    """Write where P's foot is on a segment, and where it rests in its start, from row i on.
-
-    A vertex is the nearest only where the feet on both of its segments are beyond it. Of the last
-    segment the end is offered too. Return the number of offers.
-    """
+    new: int,
+) -> None:
+    """Write as row ``new`` P's foot on a segment (k = 0), its start (1) or its end (2)."""
     e = goal.chain.side[j]
     u, v = mesh.tri[e], mesh.tri[next_side(e)]
     is_forward = u == goal.chain.vertex[j]
-    by_a, by_b = feet_on(goal, walk, j)
-    offers, last = 0, goal.x.size - 2
-    for k in range(3):
-        if k == 0:
-            low, high = below(-by_a, -by_b, start, stop)
-            low, high = below(by_a - 1.0, by_b - 1.0, low, high)
-        elif k == 1:
-            low, high = below(by_a, by_b, start, stop)
-            if j > 0 and low < high:
-                before_a, before_b = feet_on(goal, walk, j - 1)
-                low, high = below(1.0 - before_a, 1.0 - before_b, low, high)
-        elif j == last:
-            low, high = below(1.0 - by_a, 1.0 - by_b, start, stop)
-        else:
-            break
-        if not low < high:
-            continue
-        new = i + offers
-        row[new, 0], row[new, 1], row[new, 4], row[new, 5] = low, high, 1.0, 1.0
-        at[new, 0], at[new, 3], at[new, 4] = e, u, v
-        if k == 0:
-            at[new, 1], at[new, 2] = FOOT, -1
-            row[new, 2] = by_a if is_forward else 1.0 - by_a
-            row[new, 3] = by_b if is_forward else 1.0 - by_b
-        else:
-            at[new, 1], at[new, 2] = VERTEX, u if (k == 1) == is_forward else v
-            row[new, 2] = row[new, 3] = 0.0 if (k == 1) == is_forward else 1.0
-        at_u, at_v = (j, j + 1) if is_forward else (j + 1, j)
-        row[new, 6], row[new, 7] = goal.x[at_u], goal.y[at_u]
-        row[new, 8], row[new, 9] = goal.x[at_v] - goal.x[at_u], goal.y[at_v] - goal.y[at_u]
-        offers += 1
-    return offers
+    row[new, 0], row[new, 1], row[new, 4], row[new, 5] = from_t, to_t, 1.0, 1.0
+    at[new, 0], at[new, 3], at[new, 4] = e, u, v
+    if k == 0:
+        at[new, 1], at[new, 2] = FOOT, -1
+        dx, dy = goal.x[j + 1] - goal.x[j], goal.y[j + 1] - goal.y[j]
+        squared = dx * dx + dy * dy
+        share_a, share_b = foot_a / squared, foot_b / squared
+        row[new, 2] = share_a if is_forward else 1.0 - share_a
+        row[new, 3] = share_b if is_forward else 1.0 - share_b
+    else:
+        at[new, 1], at[new, 2] = VERTEX, u if (k == 1) == is_forward else v
+        row[new, 2] = row[new, 3] = 0.0 if (k == 1) == is_forward else 1.0
+    at_u, at_v = (j, j + 1) if is_forward else (j + 1, j)
+    row[new, 6], row[new, 7] = goal.x[at_u], goal.y[at_u]
+    row[new, 8], row[new, 9] = goal.x[at_v] - goal.x[at_u], goal.y[at_v] - goal.y[at_u]
 
 
-@njit(borrows=True)
+@njit(inline=True, borrows=True)
 def is_seen(
     mesh: Mesh,
     goal: Goal,
+    others: Others,
     walk: Walk,
     side: int,
     seen: Floats,
     outlook: Outlook,
     count: int,
+    stack: Ints,
 ) -> bool:
     """Whether P sees Q all along an envelope: the sights from its ends and where Q jumps are free.
 
-    ``seen`` as ``glance_along`` has it.
+    And no hole is in between. ``seen`` as ``glance_along`` has it.
     """
     row, at = outlook.motions.row, outlook.motions.at
     qx, qy = seen[0], seen[1]
     a, b = mesh.tri[side], mesh.tri[next_side(side)]
+    low_x, high_x = min(mesh.x[a], mesh.x[b]), max(mesh.x[a], mesh.x[b])
+    low_y, high_y = min(mesh.y[a], mesh.y[b]), max(mesh.y[a], mesh.y[b])
     for k in range(count):
         for end in range(2):
             # 1. Q stays on the side's left, where the area is, and off its line.
@@ -323,31 +322,65 @@ def is_seen(
             qx, qy = point_on(mesh, e, place_at(row, k, t))
             if orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], qx, qy) <= 0.0:
                 return False
+            low_x, high_x = min(low_x, qx), max(high_x, qx)
+            low_y, high_y = min(low_y, qy), max(high_y, qy)
             # 2. Where it does not go on from where it was, both sights have to be free.
             if end == 0:
                 off = length((qx - from_x) * goal.scale_x, (qy - from_y) * goal.scale_y)
                 if off <= slack_of(goal.tie, np.sqrt(squared_distance(walk, row, k, t))):
                     continue
-                if k > 0 and turns_on(mesh, goal, walk, side, outlook, k):
-                    continue
-                if k > 0 and not is_free(mesh, walk, side, t, at[k - 1, 0], from_x, from_y):
-                    return False
+                if k > 0:
+                    v = turns_on(mesh, goal, walk, side, outlook, k)
+                    if v >= 0:
+                        low_x, high_x = min(low_x, mesh.x[v]), max(high_x, mesh.x[v])
+                        low_y, high_y = min(low_y, mesh.y[v]), max(high_y, mesh.y[v])
+                        continue
+                    if not is_free(mesh, walk, side, t, at[k - 1, 0], from_x, from_y):
+                        return False
             elif k < count - 1:
                 continue
             if not is_free(mesh, walk, side, t, e, qx, qy):
                 return False
     seen[0], seen[1] = qx, qy
+    return is_empty(others, low_x, low_y, high_x, high_y, stack)
+
+
+@njit(borrows=True)
+def is_empty(
+    others: Others, low_x: float, low_y: float, high_x: float, high_y: float, stack: Ints
+) -> bool:
+    """Whether no vertex of the others is in a box."""
+    x, y, boxes = others
+    leaves, depth = boxes.shape[0] // 2, 0
+    if x.size > 0:
+        stack[0], depth = 1, 1
+    while depth > 0:
+        depth -= 1
+        node = stack[depth]
+        if squared_gap(low_x, low_y, high_x, high_y, boxes, node) > 0.0:
+            continue
+        if node < leaves:
+            stack[depth], stack[depth + 1] = 2 * node, 2 * node + 1
+            depth += 2
+            continue
+        begin = (node - leaves) * LEAF
+        for j in range(begin, min(begin + LEAF + 1, x.size)):
+            if low_x <= x[j] <= high_x and low_y <= y[j] <= high_y:
+                return False
     return True
 
 
 @njit(borrows=True)
-def turns_on(mesh: Mesh, goal: Goal, walk: Walk, side: int, outlook: Outlook, k: int) -> bool:
-    """Whether Q jumps around the corner of two segments, and forwards, where piece k begins."""
+def turns_on(mesh: Mesh, goal: Goal, walk: Walk, side: int, outlook: Outlook, k: int) -> int:
+    """Return the corner of two segments around which Q jumps, and forwards, where piece k begins.
+
+    -1 if it jumps otherwise.
+    """
     row, at = outlook.motions.row, outlook.motions.at
     e, f, t = at[k - 1, 0], at[k, 0], row[k, 0]
     i, j = goal.segment[e], goal.segment[f]
     if abs(i - j) != 1:
-        return False
+        return -1
     v = goal.chain.vertex[max(i, j)]
     px, py, _ = point_of(mesh, walk, t)
     qx, qy = point_on(mesh, e, place_at(row, k - 1, t))
@@ -356,8 +389,8 @@ def turns_on(mesh: Mesh, goal: Goal, walk: Walk, side: int, outlook: Outlook, k:
     second = orient(px, py, mesh.x[v], mesh.y[v], to_x, to_y)
     # With Q on the left of the way ahead, what moves on turns to the right around P.
     if mesh.tri[side] == walk.a:
-        return first < 0.0 and second < 0.0
-    return first > 0.0 and second > 0.0
+        return v if first < 0.0 and second < 0.0 else -1
+    return v if first > 0.0 and second > 0.0 else -1
 
 
 @njit(borrows=True)

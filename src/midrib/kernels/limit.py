@@ -21,18 +21,23 @@ from midrib.kernels.boxtree import DEPTH, GRAZE, VERTEX
 from midrib.kernels.chain import Chain, Goal, goal_of, slack_of
 from midrib.kernels.envelope import (
     SLIVER,
-    farthest_between,
     is_same_motion,
     place_at,
-    squared_distance,
 )
 from midrib.kernels.glance import UNSURE, Others, glance_along, others_of
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.outlook import Scene, look_along, new_outlook, scene_of, walk_along
+from midrib.kernels.outlook import (
+    Outlook,
+    Scene,
+    look_along,
+    new_outlook,
+    scene_of,
+    walk_along,
+)
 from midrib.kernels.paths import triangle_towards, walk
-from midrib.kernels.tables import with_places, with_rows
+from midrib.kernels.tables import with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import squared_distance_to_side
 from midrib.kernels.windows import spot_at
@@ -42,7 +47,6 @@ __all__ = ["Limit", "draw_limit"]
 
 SAME_OFF = 1.0 - 2.0**-20  # two knots are the farthest if rounding may have decided
 HALVINGS = 14  # of an arc: chords within 2^-28 of its extent
-A_BIT_FARTHER, MUCH_FARTHER = 1.0 + 2.0**-10, 2.0
 AT_SIDE, AT_KIND, AT_MAIN = 0, 1, 3
 FROM, TO = 0, 1
 
@@ -113,7 +117,7 @@ def draw_limit(
     Signs at the ends of main segments are exact; where events lie between them is known to
     rounding. Time grows with the number of triangles nearer than the answer from some P.
     """
-    scene = scene_of(mesh, auxiliary, scale_x, scale_y)
+    scene = scene_of(mesh, main, auxiliary, scale_x, scale_y)
     goal = goal_of(mesh, auxiliary, scale_x, scale_y)
     others = others_of(mesh, main, goal)
     pieces = trace_pieces(mesh, scene, goal, others, main, stations, segment, limits, glances)
@@ -137,56 +141,103 @@ def trace_pieces(
     glances: bool,
 ) -> Pieces:
     """Pieces of the whole main curve; those that go on past a cut are one."""
-    row, at, total = np.empty((64, 6)), np.empty((64, 4), np.intp), 0
     windows, rows = 256, 128
-    outlook, reach, limit = new_outlook(windows, rows), np.inf, np.empty(4)
-    hint, seen, stack = 0, np.full(2, np.nan), np.empty(DEPTH, np.intp)
-    for i in range(stations.size - 1):
+    outlook, seen = new_outlook(windows, rows), np.full(2, np.nan)
+    row, at = np.empty((4 * rows, 6)), np.empty((4 * rows, 4), np.intp)
+    limit, stack = np.empty(4), np.empty(DEPTH, np.intp)
+    i, total = 0, 0
+    while True:
+        i, total = trace_from(
+            mesh,
+            scene,
+            goal,
+            others,
+            main,
+            stations,
+            segment,
+            limits,
+            glances,
+            i,
+            total,
+            row,
+            at,
+            outlook,
+            seen,
+            limit,
+            stack,
+        )
+        if i == stations.size - 1:
+            break
+        if total + rows > row.shape[0]:
+            room = 2 * (total + rows)
+            row, at = with_rows(row, room), with_rows(at, room)
+        else:
+            windows, rows = 4 * windows, 4 * rows
+            outlook = new_outlook(windows, rows)
+    # Slivers are left out.
+    kept, least = 0, SLIVER * main.arc[-1]
+    for j in range(total):
+        run = main.arc[at[j, AT_MAIN] + 1] - main.arc[at[j, AT_MAIN]]
+        if (row[j, TO] - row[j, FROM]) * run > least:
+            for column in range(6):
+                row[kept, column] = row[j, column]
+            for column in range(4):
+                at[kept, column] = at[j, column]
+            kept += 1
+    return Pieces(row[:kept], at[:kept])
+
+
+@njit(borrows=True)
+def trace_from(
+    mesh: Mesh,
+    scene: Scene,
+    goal: Goal,
+    others: Others,
+    main: Chain,
+    stations: Floats,
+    segment: Ints,
+    limits: Floats,
+    glances: bool,
+    i: int,
+    total: int,
+    row: Floats,
+    at: Ints,
+    outlook: Outlook,
+    seen: Floats,
+    limit: Floats,
+    stack: Ints,
+) -> tuple[int, int]:
+    """Go on with piece ``total`` from station i on, as far as tables have room: where that is."""
+    found, found_at, base = outlook.motions.row, outlook.motions.at, outlook.motions.base
+    while i < stations.size - 1 and total + base <= row.shape[0]:
         k = segment[i]
         run = main.arc[k + 1] - main.arc[k]
         start, stop = (stations[i] - main.arc[k]) / run, (stations[i + 1] - main.arc[k]) / run
         walk = walk_along(scene, main.vertex[k], main.vertex[k + 1])
         write_limits(limits[i], start, stop, limit)
-        # 1. A glance. Else Q is hardly farther than a step ago; if it is, or is none, P looks
-        #    again, farther.
-        bound = (reach + (stations[i + 1] - stations[i])) * A_BIT_FARTHER
-        is_clear = glances
-        while True:
-            if is_clear:
-                count = glance_along(
-                    mesh,
-                    goal,
-                    others,
-                    walk,
-                    main.side[k],
-                    start,
-                    stop,
-                    limit,
-                    hint,
-                    seen,
-                    outlook,
-                    stack,
-                )
-                is_clear = count != UNSURE
-            if not is_clear:
-                count = look_along(scene, walk, main.side[k], start, stop, limit, bound, outlook)
-            if count < 0:
-                windows, rows = 4 * windows, 4 * rows
-                outlook = new_outlook(windows, rows)
-                continue
-            if is_clear:
-                break
-            farthest = np.sqrt(farthest_between(outlook.motions.row, count, start, stop))
-            if farthest <= bound or bound == np.inf:
-                break
-            bound = farthest if farthest < np.inf else bound * MUCH_FARTHER
-            if bound > scene.extent:
-                bound = np.inf
+        # 1. A glance, and where that is not enough a look around.
+        count = UNSURE
+        if glances:
+            hint = max(goal.segment[at[total - 1, AT_SIDE]], 0) if total > 0 else 0
+            count = glance_along(
+                mesh,
+                goal,
+                others,
+                walk,
+                main.side[k],
+                start,
+                stop,
+                limit,
+                hint,
+                seen,
+                outlook,
+                stack,
+            )
+        if count == UNSURE:
+            count = look_along(scene, walk, main.side[k], start, stop, limit, outlook)
+        if count < 0:
+            break
         # 2. Pieces that go on past a cut are one.
-        found, found_at = outlook.motions.row, outlook.motions.at
-        while total + count > row.shape[0]:
-            room = 2 * row.shape[0]
-            row, at = with_rows(row, room), with_rows(at, room)
         for j in range(count):
             last = total - 1
             is_next = total > 0 and at[last, AT_MAIN] == k and row[last, TO] == found[j, FROM]
@@ -199,21 +250,8 @@ def trace_pieces(
             for column in range(3):
                 at[total, column] = found_at[j, column]
             total += 1
-        last, reach = count - 1, np.inf
-        if count > 0 and found[last, TO] == stop:
-            reach = np.sqrt(squared_distance(walk, found, last, stop))
-            hint = max(goal.segment[found_at[last, AT_SIDE]], 0)
-    # 3. Slivers are left out.
-    kept, least = 0, SLIVER * main.arc[-1]
-    for j in range(total):
-        run = main.arc[at[j, AT_MAIN] + 1] - main.arc[at[j, AT_MAIN]]
-        if (row[j, TO] - row[j, FROM]) * run > least:
-            for column in range(6):
-                row[kept, column] = row[j, column]
-            for column in range(4):
-                at[kept, column] = at[j, column]
-            kept += 1
-    return Pieces(row[:kept], at[:kept])
+        i += 1
+    return i, total
 
 
 @njit(borrows=True)
@@ -299,12 +337,22 @@ def tie_knots(mesh: Mesh, scene: Scene, main: Chain, pieces: Pieces, finds_ways:
 
     ``finds_ways``: whether jumps that a straight way crosses shall not break the curve.
     """
-    n = pieces.row.shape[0]
-    x, y, t = np.empty(3 * n), np.empty(3 * n), np.empty(3 * n)
-    piece = np.empty(3 * n, np.intp)
-    is_control, breaks = np.zeros(3 * n, np.bool_), np.zeros(3 * n, np.bool_)
+    n = 3 * pieces.row.shape[0]
+    x, y, t, piece = np.empty(n), np.empty(n), np.empty(n), np.empty(n, np.intp)
+    is_control, breaks = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
+    room = Knots(x, y, t, piece, is_control, breaks)
+    n = write_knots(mesh, scene, main, pieces, finds_ways, room)
+    return Knots(x[:n], y[:n], t[:n], piece[:n], is_control[:n], breaks[:n])
+
+
+@njit(borrows=True)
+def write_knots(
+    mesh: Mesh, scene: Scene, main: Chain, pieces: Pieces, finds_ways: bool, room: Knots
+) -> int:
+    """Write the knots; their number."""
+    x, y, t, piece, is_control, breaks = room
     count = 0
-    for j in range(n):
+    for j in range(pieces.row.shape[0]):
         start, stop = pieces.row[j, FROM], pieces.row[j, TO]
         goes_on = j > 0 and meets(scene, main, pieces, j)
         if not goes_on:
@@ -325,7 +373,7 @@ def tie_knots(mesh: Mesh, scene: Scene, main: Chain, pieces: Pieces, finds_ways:
         x[count], y[count] = middle_of(scene, main, pieces, j, stop)
         t[count], piece[count] = stop, j
         count += 1
-    return Knots(x[:count], y[:count], t[:count], piece[:count], is_control[:count], breaks[:count])
+    return count
 
 
 @njit(borrows=True)
@@ -392,8 +440,24 @@ def needed_knots(
     """
     n = knots.t.size
     kept = np.zeros(n, np.bool_)
-    stack, depth = np.empty((64, 2), np.intp), 0
-    start = 0
+    write_needed(mesh, scene, main, pieces, knots, tolerance, np.empty((n + 3, 2), np.intp), kept)
+    return kept
+
+
+@njit(borrows=True)
+def write_needed(
+    mesh: Mesh,
+    scene: Scene,
+    main: Chain,
+    pieces: Pieces,
+    knots: Knots,
+    tolerance: float,
+    stack: Ints,
+    kept: Bools,
+) -> None:
+    """Write which knots are needed; ways that wait have no more than their ends in common."""
+    n = knots.t.size
+    start, depth = 0, 0
     for i in range(1, n + 1):
         if i == n or knots.breaks[i]:
             stack[depth, 0], stack[depth, 1] = start, i - 1
@@ -409,13 +473,10 @@ def needed_knots(
                 mesh, scene, main, pieces, knots.piece[a], knots.t[a], knots.x[b], knots.y[b]
             ):
                 continue
-            if depth + 3 > stack.shape[0]:
-                stack = with_rows(stack, 2 * stack.shape[0])
             for begin, end in ((a, first), (first, last), (last, b)):
                 if begin < end:
                     stack[depth, 0], stack[depth, 1] = begin, end
                     depth += 1
-    return kept
 
 
 @njit(borrows=True)
@@ -453,10 +514,33 @@ def radii_at(
     arcs_within: float,
 ) -> Limit:
     """Radii at the knots that are kept and on the arcs between them; stations without a radius."""
-    points, at = np.empty((knots.t.size + 8, 6)), np.empty((knots.t.size + 8, 6), np.intp)
-    stations, n = np.empty(2 * knots.t.size + 16), 0
-    total, seen, slack = 0, 0.0, 2.0 * SLIVER * main.arc[-1]
-    waits = np.empty(HALVINGS + 2)
+    waits, room = np.empty(HALVINGS + 2), 3 * int(np.count_nonzero(kept)) + 8
+    while True:
+        points, at, stations = np.empty((room, 6)), np.empty((room, 6), np.intp), np.empty(room)
+        total, n = write_radii(
+            scene, main, pieces, knots, kept, arcs_within, points, at, stations, waits
+        )
+        if max(total, n) <= room:
+            return Limit(points[:total], at[:total], stations[:n])
+        room = max(total, n)
+
+
+@njit(borrows=True)
+def write_radii(
+    scene: Scene,
+    main: Chain,
+    pieces: Pieces,
+    knots: Knots,
+    kept: Bools,
+    arcs_within: float,
+    points: Floats,
+    at: Ints,
+    stations: Floats,
+    waits: Floats,
+) -> tuple[int, int]:
+    """Write radii and stations, as many as there is room for; their numbers."""
+    total, n, slack = 0, 0, 2.0 * SLIVER * main.arc[-1]
+    seen, has_radius = 0.0, False  # the last station, and whether it is one of a radius
     for i in range(knots.t.size):
         if not kept[i] or knots.is_control[i]:
             continue
@@ -473,7 +557,8 @@ def radii_at(
             before = waits[0]
         station = station_of(main, pieces.at[j, AT_MAIN], before)
         if station - seen > slack and (i == 0 or (knots.breaks[i] and before == knots.t[i])):
-            n = add_gap(stations, n, seen, station)
+            n = add_station(stations, add_station(stations, n, seen), station)
+            has_radius = False
         # 2. An arc is halved until its chords are near enough.
         while depth >= 0:
             t = waits[depth]
@@ -485,31 +570,27 @@ def radii_at(
                 depth += 1
                 waits[depth] = (before + t) / 2.0
                 continue
-            is_last = depth == 0
-            row_piece, row_t = (knots.piece[i], knots.t[i]) if is_last else (j, t)
-            if total == at.shape[0]:
-                room = 2 * points.shape[0]
-                points, at = with_rows(points, room), with_rows(at, room)
-            write_radius(scene, main, pieces, row_piece, row_t, points[total], at[total])
-            seen = station_of(main, pieces.at[row_piece, AT_MAIN], row_t)
-            if n == 0 or stations[n - 1] != seen or at[total - 1, 0] != n - 1 or total == 0:
-                if n + 4 > stations.size:
-                    stations = with_places(stations, 2 * stations.size)
-                stations[n] = seen
-                n += 1
-            at[total, 0] = n - 1
+            row_piece, row_t = (knots.piece[i], knots.t[i]) if depth == 0 else (j, t)
+            station = station_of(main, pieces.at[row_piece, AT_MAIN], row_t)
+            if not has_radius or station != seen:
+                n = add_station(stations, n, station)
+            seen, has_radius = station, True
+            if total < at.shape[0]:
+                write_radius(scene, main, pieces, row_piece, row_t, points[total], at[total])
+                at[total, 0] = n - 1
             total += 1
             before, depth = t, depth - 1
     if main.arc[-1] - seen > slack:
-        n = add_gap(stations, n, seen, main.arc[-1])
-    return Limit(points[:total], at[:total], stations[:n])
+        n = add_station(stations, add_station(stations, n, seen), main.arc[-1])
+    return total, n
 
 
 @njit(borrows=True)
-def add_gap(stations: Floats, n: int, start: float, stop: float) -> int:
-    """Append the ends of a gap to the stations; the new number of them."""
-    stations[n], stations[n + 1] = start, stop
-    return n + 2
+def add_station(stations: Floats, n: int, station: float) -> int:
+    """Append a station where there is room; the new number of them."""
+    if n < stations.size:
+        stations[n] = station
+    return n + 1
 
 
 @njit(borrows=True)

@@ -125,7 +125,7 @@ def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float,
         qx, qy = px + (middle_x - px) * share, py + (middle_y - py) * share
         if abs(qx - px) + abs(qy - py) > reach:
             break
-        if contains(mesh, t, qx, qy):
+        if (qx != px or qy != py) and contains(mesh, t, qx, qy):
             return qx, qy, True
         share *= 2.0
     return px, py, False

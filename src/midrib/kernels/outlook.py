@@ -27,12 +27,13 @@ from midrib.kernels.envelope import (
     Walk,
     farthest_between,
     has_room,
-    is_idle,
+    is_lower,
     lower_by,
     new_motions,
+    where_farther,
 )
-from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side, previous_side
@@ -44,6 +45,8 @@ __all__ = ["Outlook", "Scene", "look_along", "new_outlook", "scene_of", "walk_al
 FRESH = 6
 FIRST, LAST, AT_FOOT, LOW, HIGH = 0, 1, 2, 3, 4
 NO_LIMIT = 2.0**500  # infinite shares could not be compared
+BUCKETS = 256  # of windows about equally near: eight for each doubling of the squared distance
+FREE = BUCKETS
 
 
 class Scene(NamedTuple):
@@ -55,6 +58,7 @@ class Scene(NamedTuple):
     y: Floats
     segment: Ints  # for each half-edge the curve's segment on it, or -1
     place: Ints  # for each mesh vertex its place on the curve, or -1
+    main_place: Ints  # for each one inside the main curve its place, with the boundary; or -1
     vertex: Ints
     arc: Floats
     scale_x: float
@@ -70,13 +74,14 @@ class Outlook(NamedTuple):
     window: Ints  # (k, 3) side, right, left; the first FRESH rows are those of the latest parting
     span: Floats  # (k, 2) from, to
     near: Floats  # (k,) square of the distance to the side from the middle of the walk
-    heap: Ints  # (k,) rows that wait, by how near they are, then rows that are free again
+    queue: Ints  # (BUCKETS + 1,) of each bucket, nearest first, a row that waits, or -1; a free row
+    link: Ints  # (k,) the next row in the same bucket, or the next free one, or -1
     share: Floats  # (5, 4) n and m at 0 and 1 of the ends, the foot and the limits
 
 
 @njit()
-def scene_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Scene:
-    """Prepare to look for a curve; O(n)."""
+def scene_of(mesh: Mesh, main: Chain, chain: Chain, scale_x: float, scale_y: float) -> Scene:
+    """Prepare to look from the main curve for the other one; O(n)."""
     segment, place = np.full(mesh.tri.size, -1, np.intp), np.full(mesh.x.size, -1, np.intp)
     for i in range(chain.vertex.size):
         place[chain.vertex[i]] = i
@@ -94,6 +99,7 @@ def scene_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Scene:
         mesh.y,
         segment,
         place,
+        main_places(mesh, main, chain, place),
         chain.vertex,
         chain.arc,
         scale_x,
@@ -104,6 +110,23 @@ def scene_of(mesh: Mesh, chain: Chain, scale_x: float, scale_y: float) -> Scene:
 
 
 @njit()
+def main_places(mesh: Mesh, main: Chain, chain: Chain, place: Ints) -> Ints:
+    """Places of vertices inside the main curve; none where the curves meet there, or bridges lead.
+
+    A side from one of them to a later one cuts off a pocket, whose only boundary outside of holes
+    is the part of the main curve in between.
+    """
+    found, last = np.full(mesh.x.size, -1, np.intp), main.side.size
+    is_with = mesh.tri[main.side[0]] == main.vertex[0]
+    is_apart = np.all(chain.side >= 0)
+    for i in range(1, last):
+        is_apart = is_apart and place[main.vertex[i]] < 0
+    for i in range(1, last if is_apart else 0):
+        found[main.vertex[i]] = i if is_with else last - i
+    return found
+
+
+@njit(borrows=True)
 def walk_along(scene: Scene, a: int, b: int) -> Walk:
     """Walk from vertex a to vertex b."""
     ax, ay = scene.x[a] * scene.scale_x, scene.y[a] * scene.scale_y
@@ -118,6 +141,7 @@ def new_outlook(windows: int, pieces: int) -> Outlook:
         np.empty((windows, 3), np.intp),
         np.empty((windows, 2)),
         np.empty(windows),
+        np.empty(BUCKETS + 1, np.intp),
         np.empty(windows, np.intp),
         np.empty((5, 4)),
     )
@@ -131,16 +155,15 @@ def look_along(
     start: float,
     stop: float,
     limit: Floats,
-    bound: float,
     outlook: Outlook,
 ) -> int:
     """Write the envelope of what P sees from start to stop; the number of pieces.
 
-    ``limit`` holds the least arc length that counts, at 0 and at 1, and the greatest. What is
-    farther than ``bound`` may be missing. Negative if the tables are too small.
+    ``limit`` holds the least arc length that counts, at 0 and at 1, and the greatest. Negative if
+    the tables are too small.
     """
     window, span, share = outlook.window, outlook.span, outlook.share
-    near, heap = outlook.near, outlook.heap
+    near, queue, link = outlook.near, outlook.queue, outlook.link
     row, at, work, base = outlook.motions
     tri, twin, x, y, segment, place = (
         scene.tri, scene.twin, scene.x, scene.y, scene.segment, scene.place,
@@ -149,53 +172,59 @@ def look_along(
     has_limits = limit[0] > -np.inf or limit[2] < np.inf
     middle, half = (start + stop) / 2.0, (stop - start) / 2.0
     px, py = walk.ax + middle * (walk.bx - walk.ax), walk.ay + middle * (walk.by - walk.ay)
-    reach = half * np.sqrt((walk.bx - walk.ax) ** 2 + (walk.by - walk.ay) ** 2)
+    reach = half * length(walk.bx - walk.ax, walk.by - walk.ay)
     px, py = px / scale_x, py / scale_y
+    for i in range(BUCKETS + 1):
+        queue[i] = -1
     # 1. The side itself, for its ends, and the other two of its triangle.
     u, v, w = tri[side], tri[next_side(side)], tri[previous_side(side)]
     fresh = add_window(window, span, 0, side, u, v, start, stop)
     fresh = add_window(window, span, fresh, previous_side(side), w, u, start, stop)
     fresh = add_window(window, span, fresh, next_side(side), v, w, start, stop)
-    size, used = let_wait(scene, px, py, bound + reach, fresh, 0, 0, outlook)
-    count, left_to_do = 0, WINDOWS_PER_SIDE * tri.size
-    while size > 0 and left_to_do > 0:
-        waiting = pop(heap, near, size)
-        size, left_to_do = size - 1, left_to_do - 1
-        heap[size] = waiting
-        e, right, left = window[waiting, 0], window[waiting, 1], window[waiting, 2]
-        low, high = span[waiting, 0], span[waiting, 1]
+    bound, count = np.inf, 0
+    first, used = let_wait(scene, px, py, bound, fresh, BUCKETS, FRESH, outlook)
+    for _ in range(WINDOWS_PER_SIDE * tri.size):
+        while first < BUCKETS and queue[first] < 0:
+            first += 1
+        if first == BUCKETS:
+            break
+        k = queue[first]
+        queue[first], link[k], queue[FREE] = link[k], queue[FREE], k
+        e, right, left = window[k, 0], window[k, 1], window[k, 2]
         # 2. What cannot be nearer than what is known is left out.
         u, v = tri[e], tri[next_side(e)]
-        least = max(np.sqrt(near[waiting]) - reach, 0.0)
-        if least * least > farthest_between(row, count, low, high):
+        least = max(np.sqrt(near[k]) - reach, 0.0)
+        low, high = where_farther(row, count, span[k, 0], span[k, 1], least * least)
+        if not low < high:
             continue
         # 3. An open side is parted, boundary makes its offers.
         if twin[e] >= 0:
-            if FRESH + size + FRESH > window.shape[0]:
+            if used + FRESH > window.shape[0]:
                 return -1
             w = tri[previous_side(twin[e])]
             fresh = part(x, y, walk.a, walk.b, twin[e], w, right, left, low, high, window, span, 0)
-            size, used = let_wait(scene, px, py, bound + reach, fresh, size, used, outlook)
+            first, used = let_wait(scene, px, py, bound, fresh, first, used, outlook)
             continue
-        first = 2 * base
+        new = 2 * base
         if segment[e] >= 0:
-            row[first, 6], row[first, 7] = x[u] * scale_x, y[u] * scale_y
-            row[first, 8], row[first, 9] = (x[v] - x[u]) * scale_x, (y[v] - y[u]) * scale_y
+            row[new, 6], row[new, 7] = x[u] * scale_x, y[u] * scale_y
+            row[new, 8], row[new, 9] = (x[v] - x[u]) * scale_x, (y[v] - y[u]) * scale_y
             if has_limits:
                 write_limits(scene, e, u, limit, share)
             offers = offer_side(
-                x, y, walk, e, u, v, right, left, low, high, has_limits, row, at, work, share, first
+                x, y, walk, e, u, v, right, left, low, high, has_limits, row, at, work, share, new
             )
         elif place[u] >= 0 or place[v] >= 0:
-            offers = offer_ends(scene, walk, e, right, left, low, high, limit, row, at, first)
+            offers = offer_ends(scene, walk, e, right, left, low, high, limit, row, at, new)
         else:
             offers = 0
         for i in range(offers):
-            if is_idle(walk, row, work, count, first + i):
+            if not is_lower(walk, row, work, count, new + i):
                 continue
             if not has_room(base, count):
                 return -1
-            count = lower_by(walk, row, at, work, base, count, first + i)
+            count = lower_by(walk, row, at, work, base, count, new + i)
+            bound = np.sqrt(farthest_between(row, count, start, stop)) + reach
     return count
 
 
@@ -216,34 +245,49 @@ def let_wait(
     py: float,
     bound: float,
     fresh: int,
-    size: int,
+    first: int,
     used: int,
     outlook: Outlook,
 ) -> tuple[int, int]:
-    """Put fresh windows on the heap, but for those that are farther than ``bound``.
+    """Put fresh windows in the queue, but for those farther than ``bound`` or with nothing behind.
 
-    The nearest is looked through first, so none that is farther than the answer (from a depth
-    first search to this: half the time or less). Return the numbers of windows and of rows in use.
+    The nearest are looked through first, so hardly any that is farther than the answer: in a star
+    of 1,000 vertices a quarter of what a depth first search looks through. With a heap instead of
+    buckets the search took nearly twice as long. Return the first bucket with a window, and the
+    number of rows that have been in use.
     """
-    window, span, near, heap = outlook.window, outlook.span, outlook.near, outlook.heap
-    x, y = scene.x, scene.y
+    window, span, queue, link = outlook.window, outlook.span, outlook.queue, outlook.link
+    x, y, last = scene.x, scene.y, bits_of(scene.extent * scene.extent) + 1
     for i in range(fresh):
-        u, v = scene.tri[window[i, 0]], scene.tri[next_side(window[i, 0])]
+        e = window[i, 0]
+        u, v = scene.tri[e], scene.tri[next_side(e)]
+        if scene.twin[e] >= 0:
+            if 0 <= scene.main_place[u] < scene.main_place[v]:
+                continue
+        elif scene.place[u] < 0 and scene.place[v] < 0:
+            continue
         squared = squared_distance_to_side(
             px, py, x[u], y[u], x[v], y[v], scene.scale_x, scene.scale_y
         )
         if squared > bound * bound:
             continue
-        if size < used:
-            k = heap[size]
+        k = queue[FREE]
+        if k >= 0:
+            queue[FREE] = link[k]
         else:
-            k, used = FRESH + used, used + 1
-        add_window(
-            window, span, k, window[i, 0], window[i, 1], window[i, 2], span[i, 0], span[i, 1]
-        )
-        near[k] = squared
-        size = push(heap, near, size, k)
-    return size, used
+            k, used = used, used + 1
+        add_window(window, span, k, e, window[i, 1], window[i, 2], span[i, 0], span[i, 1])
+        outlook.near[k] = squared
+        bucket = max(BUCKETS - 1 - max(last - bits_of(squared), 0), 0)
+        link[k], queue[bucket] = queue[bucket], k
+        first = min(first, bucket)
+    return first, used
+
+
+@njit(inline=True, borrows=True)
+def bits_of(squared: float) -> int:
+    """Return the exponent of a number and the first three of its other bits, as one number."""
+    return int(np.float64(squared).view(np.int64)) >> 49
 
 
 @njit(inline=True, borrows=True)
@@ -342,26 +386,32 @@ def write_linear(share: Floats, i: int, at_a: float, at_b: float) -> None:
 
 
 @njit(borrows=True)
+def quotient_at(share: Floats, i: int, t: float) -> tuple[float, float]:
+    """Return n and m of a share at t."""
+    n = share[i, 0] + t * (share[i, 1] - share[i, 0])
+    return n, share[i, 2] + t * (share[i, 3] - share[i, 2])
+
+
+@njit(borrows=True)
 def share_at(share: Floats, i: int, t: float) -> float:
     """Share at t."""
-    n = share[i, 0] + t * (share[i, 1] - share[i, 0])
-    return n / (share[i, 2] + t * (share[i, 3] - share[i, 2]))
+    n, m = quotient_at(share, i, t)
+    return n / m
 
 
 @njit(borrows=True)
 def cut_by_order(share: Floats, work: Floats, used: int, low: float, high: float) -> int:
-    """Write the t at which two of the shares in use are equal as row 3, in order; their number."""
+    """Write the t at which two of the shares in use are equal as row 3, in order; their number.
+
+    The ends of a window never are.
+    """
     count = 0
-    for i in range(used):
+    for i in range(AT_FOOT, used):
+        n_a, m_a = quotient_at(share, i, low)
+        n_b, m_b = quotient_at(share, i, high)
         for j in range(i):
-            n_a = share[i, 0] + low * (share[i, 1] - share[i, 0])
-            n_b = share[i, 0] + high * (share[i, 1] - share[i, 0])
-            m_a = share[i, 2] + low * (share[i, 3] - share[i, 2])
-            m_b = share[i, 2] + high * (share[i, 3] - share[i, 2])
-            k_a = share[j, 0] + low * (share[j, 1] - share[j, 0])
-            k_b = share[j, 0] + high * (share[j, 1] - share[j, 0])
-            l_a = share[j, 2] + low * (share[j, 3] - share[j, 2])
-            l_b = share[j, 2] + high * (share[j, 3] - share[j, 2])
+            k_a, l_a = quotient_at(share, j, low)
+            k_b, l_b = quotient_at(share, j, high)
             work[2, 0], work[2, 2] = n_a * l_a - k_a * m_a, n_b * l_b - k_b * m_b
             work[2, 1] = (n_a * l_b + n_b * l_a - k_a * m_b - k_b * m_a) / 2.0
             count = roots_inside(work, 2, 2, low, high, 3, count)
