@@ -1,0 +1,7 @@
+"""Strokes from the top of a slope to its toe."""
+
+from midrib.hatching.finishing import Problem
+from midrib.hatching.hatch import Hatching, hatch
+from midrib.hatching.rule import Rule
+
+__all__ = ["Hatching", "Problem", "Rule", "hatch"]
