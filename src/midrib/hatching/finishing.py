@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiPolygon, Point, Polygon
+from shapely import MultiPolygon, Point, Polygon
 
 from midrib.errors import GeometryTypeError
 from midrib.hatching.matching import Drawn
@@ -73,12 +73,13 @@ def too_near(drawn: Drawn, kept: Bools, problems: list[Problem]) -> Bools:
     if rows.size < 2:
         return near
     steps = np.hypot(*np.diff(drawn.on_top[rows], axis=0).T)
-    if (steps >= LEAST_FOOT * drawn.gap[rows[1:]]).all():
+    gap = (drawn.gap[rows[1:]] + drawn.gap[rows[:-1]]) / 2.0
+    if (steps >= LEAST_FOOT * gap).all():
         return near
     last = rows[0]
     for row in rows[1:]:
         step = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[last])))
-        if step < LEAST_FOOT * drawn.gap[row]:
+        if step < LEAST_FOOT * (drawn.gap[row] + drawn.gap[last]) / 2.0:
             near[row] = True
             reason = "strokes would begin too near to each other; one is left out"
             problems.append(Problem(Point(drawn.on_top[row]), reason))
@@ -91,7 +92,7 @@ def shorten(drawn: Drawn, whole: Bools, share: Floats, problems: list[Problem]) 
     """Let whole strokes end where the one before is still far enough, if not at the toe."""
     rows = np.flatnonzero(whole)
     foot = np.hypot(*np.diff(drawn.on_toe[rows], axis=0).T)
-    least = LEAST_FOOT * drawn.gap[rows[1:]]
+    least = LEAST_FOOT * (drawn.gap[rows[1:]] + drawn.gap[rows[:-1]]) / 2.0
     for k in np.flatnonzero(foot < least):
         row = rows[k + 1]
         head = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[rows[k]])))

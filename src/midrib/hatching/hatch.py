@@ -1,12 +1,9 @@
 """Hatching a slope: strokes from its top to its toe that never cross."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import shapely
-from shapely import LineString
 
 from midrib.checks import check_flag, is_number, shown
 from midrib.errors import GeometryTypeError, ParameterError
@@ -244,7 +241,7 @@ def assemble(
 
 
 def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
-    """Distances between neighbours along the middle line; on a closed one from last to first too."""
+    """Distances between neighbours along the middle line, on a closed one all the way round."""
     if ground is None or not ground.middle.is_closed:
         gaps: Floats = abs(np.diff(station))
         return gaps

@@ -33,9 +33,21 @@ class Drawn(NamedTuple):
     kept: Bools
     reason: str  # why others are not
 
+    def of_rows(self, rows: Ints) -> "Drawn":
+        """Return some of the strokes."""
+        return Drawn(
+            self.station[rows],
+            self.middle[rows],
+            self.on_top[rows],
+            self.on_toe[rows],
+            self.gap[rows],
+            self.kept[rows],
+            self.reason,
+        )
+
 
 class Ground(NamedTuple):
-    """A slope prepared for strokes, the rule for gaps, and whether the pattern starts on the right."""
+    """A slope prepared for strokes, the rule for gaps, and where the pattern starts."""
 
     middle: Middle
     ladder: Ladder
@@ -150,17 +162,19 @@ def calmest(strokes: Strokes, periods: Floats) -> int:
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
     is_calm &= (shares > 0.3).all(axis=1) & (shares < 1.6).all(axis=1)
     n = is_calm.size
-    trouble = np.flatnonzero(~is_calm)
-    if not trouble.size:
+    trouble = np.flatnonzero(~is_calm).tolist()
+    if not trouble:
         return 0
-    run = np.diff(np.append(trouble, trouble[0] + n))
-    longest = int(np.argmax(run))
-    return int(trouble[longest] + (run[longest] + 1) // 2) % n
+    runs = np.diff([*trouble, trouble[0] + n]).tolist()
+    longest = int(np.argmax(runs))
+    middle: int = (trouble[longest] + (runs[longest] + 1) // 2) % n
+    return middle
 
 
 def rolled(strokes: Strokes, first: int, length: float, turn: float) -> Strokes:
     """Return the strokes of a closed slope from another one on."""
-    pivot, triangle, chord, on = (np.roll(part, -first, axis=0) for part in strokes)
+    pivot, chord = np.roll(strokes.pivot, -first, axis=0), np.roll(strokes.chord, -first, axis=0)
+    triangle, on = np.roll(strokes.triangle, -first), np.roll(strokes.on, -first, axis=0)
     if first:
         pivot[-first:, 0] += length
         pivot[-first:, 3:5] += turn
@@ -183,24 +197,26 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
 
 def reversed_(drawn: Drawn) -> Drawn:
     """Return the same strokes the other way."""
-    return Drawn(*(part[::-1] for part in drawn[:-1]), drawn.reason)
+    return drawn.of_rows(np.arange(len(drawn.station))[::-1])
 
 
 def with_ends(drawn: Drawn, middle: Middle) -> Drawn:
     """Add a stroke on each end of the slope that is a straight cap."""
     mesh, top, toe = middle.mesh, middle.top.vertex, middle.toe.vertex
     total = float(np.hypot(*np.diff(middle.line, axis=0).T).sum())
-    for end, station, at in ((0, 0.0, 0), (-1, total, drawn.station.size)):
+    for end, station in ((0, 0.0), (-1, total)):
         a, b = top[end], toe[end]
         if a == b:
             continue
-        at += 1 if end and drawn.station.size > at else 0
         on_top, on_toe = np.array([mesh.x[a], mesh.y[a]]), np.array([mesh.x[b], mesh.y[b]])
-        gap = drawn.gap[end] if drawn.gap.size else 0.0
-        row = (station, (on_top + on_toe) / 2.0, on_top, on_toe, gap, True)
-        parts = [
-            np.insert(part, 0 if end == 0 else len(part), value, axis=0)
-            for part, value in zip(drawn[:-1], row, strict=True)
-        ]
-        drawn = Drawn(*parts, drawn.reason)
+        place = 0 if end == 0 else len(drawn.station)
+        drawn = Drawn(
+            np.insert(drawn.station, place, station),
+            np.insert(drawn.middle, place, (on_top + on_toe) / 2.0, axis=0),
+            np.insert(drawn.on_top, place, on_top, axis=0),
+            np.insert(drawn.on_toe, place, on_toe, axis=0),
+            np.insert(drawn.gap, place, drawn.gap[end] if drawn.gap.size else 0.0),
+            np.insert(drawn.kept, place, True),
+            drawn.reason,
+        )
     return drawn

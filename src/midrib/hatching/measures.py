@@ -44,8 +44,10 @@ class Measures:
     stretch : float
         That mean.
     top_gap, toe_gap : float
-        Largest distance along either edge between neighbours, or from its end to the first stroke,
-        in gaps that the rule asks for.
+        Largest distance along either edge between neighbours, in gaps that the rule asks for.
+    end_gap : float
+        Largest distance along the middle line from its ends to the next stroke, in gaps; 0 if
+        closed.
     least_foot : float
         Smallest distance along the edges between ends of strokes that are drawn there, in gaps.
     turns : (k,) array
@@ -66,6 +68,7 @@ class Measures:
     stretch: float
     top_gap: float
     toe_gap: float
+    end_gap: float
     least_foot: float
     turns: "Floats"
     allowed: "Floats"
@@ -114,18 +117,10 @@ def measure_strokes(
         shapely.distance(shapely.points(on_top), main),
         shapely.distance(shapely.points(on_toe), auxiliary),
     )
-    gaps, drawn = [], []
-    for edge, ends, is_drawn in (
-        (main, on_top, np.ones(len(width), bool)),
-        (auxiliary, on_toe, is_long),
-    ):
-        at = shapely.line_locate_point(edge, shapely.points(ends))
-        gaps.append(largest_gap(at, asked, edge.length, closed))
-        some = (
-            ahead(at[is_drawn], edge.length if closed else 0.0)
-            / asked[is_drawn][: max(len(at[is_drawn]) - (not closed), 0)]
-        )
-        drawn.append(float(some.min()) if some.size else np.inf)
+    every = np.ones(len(width), dtype=np.bool_)
+    top_steps = steps_on(main, on_top, asked, every, closed)
+    toe_steps = steps_on(auxiliary, on_toe, asked, every, closed)
+    feet = np.append(top_steps, steps_on(auxiliary, on_toe, asked, is_long, closed))
     angle = np.unwrap(np.arctan2(*(on_toe - on_top).T[::-1]))
     turns = abs(np.diff(np.append(angle, angle[:1]) if closed else angle))
     turns = np.degrees(np.minimum(turns % (2 * np.pi), -turns % (2 * np.pi)))
@@ -136,9 +131,10 @@ def measure_strokes(
         short_of_edge=int(np.count_nonzero(is_long & (off > reach))),
         spacing=ratios / mean,
         stretch=mean,
-        top_gap=gaps[0],
-        toe_gap=gaps[1],
-        least_foot=min(drawn),
+        top_gap=float(top_steps.max(initial=0.0)),
+        toe_gap=float(toe_steps.max(initial=0.0)),
+        end_gap=0.0 if closed else end_gap(station, asked, middle.length),
+        least_foot=float(feet.min(initial=np.inf)),
         turns=turns,
         allowed=turn_allowed(middle, station, width, asked, closed)[: len(turns)],
         tilts=tilts_of(strip, on_top, on_toe, width),
@@ -178,17 +174,22 @@ def ahead(stations: "Floats", period: float) -> "Floats":
     return np.minimum(forth, period - forth) if len(stations) > 1 else np.empty(0)
 
 
-def largest_gap(at: "Floats", asked: "Floats", length: float, closed: bool) -> float:
-    """Largest distance along an edge without an end of a stroke, in gaps."""
-    if not len(at):
+def steps_on(
+    edge: LineString, ends: "Floats", asked: "Floats", chosen: "Bools", closed: bool
+) -> "Floats":
+    """Distances along an edge between ends of chosen strokes, in gaps."""
+    at = shapely.line_locate_point(edge, shapely.points(ends[chosen]))
+    steps = ahead(at, edge.length if closed else 0.0)
+    between = (asked[chosen] + np.roll(asked[chosen], -1)) / 2.0
+    return steps / between[: len(steps)]
+
+
+def end_gap(station: "Floats", asked: "Floats", length: float) -> float:
+    """Largest distance from the ends of the middle line to the next stroke, in gaps."""
+    if not len(station):
         return np.inf
-    steps = ahead(at, length if closed else 0.0)
-    between = np.maximum(asked, np.roll(asked, -1))[: len(steps)]
-    largest = float((steps / between).max()) if len(steps) else 0.0
-    if closed:
-        return largest
-    first, last = int(np.argmin(at)), int(np.argmax(at))
-    return max(largest, at[first] / asked[first], (length - at[last]) / asked[last])
+    first, last = int(np.argmin(station)), int(np.argmax(station))
+    return float(max(station[first] / asked[first], (length - station[last]) / asked[last]))
 
 
 def turn_allowed(
@@ -238,7 +239,8 @@ def directions(edge: LineString, points: "Floats", width: "Floats") -> "Floats":
         for half in (-0.5, 0.5)
     ]
     step = (ends[1] - ends[0]).reshape(*places.shape, 2)
-    return np.degrees(np.arctan2(step[..., 1], step[..., 0]))
+    result: Floats = np.degrees(np.arctan2(step[..., 1], step[..., 0]))
+    return result
 
 
 def spread(directions: "Floats") -> "Floats":

@@ -11,6 +11,7 @@ Cartography 66(1), 2017, section 5, Eq. 2 and Fig. 12.
 """
 
 import numpy as np
+import shapely
 
 from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError
@@ -48,7 +49,8 @@ def draw_by_paper(strip: Strip, rule: Rule) -> Drawn:
     found = np.isin(stations, curve.stations[row])
     on_top, on_toe = np.full((stations.size, 2), np.nan), np.full((stations.size, 2), np.nan)
     on_top[found], on_toe[found] = curve.on_main[row], curve.on_auxiliary[row]
-    on_top[~found] = [strip.main.interpolate(s).coords[0] for s in stations[~found]]
+    places = shapely.line_interpolate_point(strip.main, stations[~found])
+    on_top[~found] = shapely.get_coordinates(places)
     middle = np.where(found[:, None], (on_top + on_toe) / 2.0, on_top)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(middle, axis=0).T))])
     return Drawn(along, middle, on_top, on_toe, gaps, found, BLIND)

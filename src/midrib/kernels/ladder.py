@@ -119,14 +119,17 @@ def normal_at(line: Floats, arc: Floats, k: int, tau: float, half: float, is_clo
 
 @njit()
 def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
-    """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n)."""
+    """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n).
+
+    What is solved for is how far they are off the normals: nothing at all where these bend
+    steadily, without rounding.
+    """
     n = tau.size
-    matrix, theta = np.zeros((n, 3)), np.zeros(n)  # row i: columns i, i + 1, i + 2
+    matrix, off = np.zeros((n, 3)), np.zeros(n)  # row i: columns i, i + 1, i + 2
     for i in range(n - 1):
         step = tau[i + 1] - tau[i]
-        for k in (i, i + 1):
-            matrix[k, 0] += step / 2.0
-            theta[k] += normal[k] * step / 2.0
+        matrix[i, 0] += step / 2.0
+        matrix[i + 1, 0] += step / 2.0
     for i in range(1, n - 1):
         before, after = tau[i] - tau[i - 1], tau[i + 1] - tau[i]
         mean = (before + after) / 2.0
@@ -138,18 +141,24 @@ def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
         matrix[i, 0] += weight * middle * middle
         matrix[i, 1] += weight * middle * last
         matrix[i + 1, 0] += weight * last * last
+        bend = (normal[i + 1] - normal[i]) / after - (normal[i] - normal[i - 1]) / before
+        off[i - 1] -= weight * first * bend / mean
+        off[i] -= weight * middle * bend / mean
+        off[i + 1] -= weight * last * bend / mean
     # Cholesky without roots: each row is subtracted from the two below it.
     for i in range(n):
         for k in range(1, min(3, n - i)):
             share = matrix[i, k] / matrix[i, 0]
             for column in range(k, 3):
                 matrix[i + k, column - k] -= share * matrix[i, column]
-            theta[i + k] -= share * theta[i]
+            off[i + k] -= share * off[i]
     for i in range(n - 1, -1, -1):
         for k in range(1, min(3, n - i)):
-            theta[i] -= matrix[i, k] * theta[i + k]
-        theta[i] /= matrix[i, 0]
-    return theta
+            off[i] -= matrix[i, k] * off[i + k]
+        off[i] /= matrix[i, 0]
+    for i in range(n):
+        off[i] += normal[i]
+    return off
 
 
 @njit()
