@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -96,7 +96,7 @@ def bent_line(kind: str, rng: np.random.Generator, width: float, length: float) 
         turn[corners] = rng.uniform(-most, most, corners.size)
     else:
         rate = rng.normal(0.0, 1.0, n)
-        smooth = np.exp(-np.linspace(-3, 3, max(int(4 * width / step), 3)) ** 2)
+        smooth = np.exp(-(np.linspace(-3, 3, max(int(4 * width / step), 3)) ** 2))
         turn = np.convolve(rate, smooth / smooth.sum(), mode="same")
         turn = turn / (abs(turn).max() or 1.0) * step / width * rng.uniform(0.1, 0.9)
     angle = np.cumsum(turn) + rng.uniform(0.0, 6.3)
@@ -117,7 +117,7 @@ def normals(line: Floats) -> Floats:
 def dented(
     edge: Floats, normal: Floats, arc: Floats, width: float, rng: np.random.Generator, way: float
 ) -> Floats:
-    """An edge with a few steep dents, as deep as a third of the width."""
+    """Return an edge with a few steep dents, as deep as a third of the width times ``way``."""
     off = np.zeros(len(arc))
     for _ in range(int(rng.integers(1, 4))):
         middle, half = rng.uniform(0.1, 0.9) * arc[-1], width * rng.uniform(0.3, 1.0)
@@ -140,7 +140,7 @@ def ring(rng: np.random.Generator) -> tuple[Floats, Floats]:
 
 
 def noisy(strip: Strip, share: float, seed: int) -> Strip | None:
-    """Return a strip with noise on its top, ``share`` of the mean width large; None if it is none."""
+    """Return a strip with noise on its top, in mean widths; None if it is none any more."""
     rng = np.random.default_rng(seed)
     top = np.array(strip.main.coords)[:, :2]
     width = 2.0 * strip.area.area / (strip.main.length + strip.auxiliary.length)
@@ -161,17 +161,17 @@ def real_polish() -> Iterator[Slope]:
     for i, row in table.iterrows():
         area = row.geometry
         if area.interiors:
-            curves: Any = LineString(area.interiors[0]), LineString(area.exterior)
+            top, toe = LineString(area.interiors[0]), LineString(area.exterior)
         else:
             ring = np.array(area.exterior.coords)[:-1, :2]
             ends = [(row.gora_start_x, row.gora_start_y), (row.gora_koniec_x, row.gora_koniec_y)]
             first, last = (int(np.argmin(np.hypot(*(ring - end).T))) for end in ends)
             n = len(ring)
-            curves = [
+            top, toe = (
                 LineString(ring[np.arange(a, a + (b - a) % n + 1) % n])
                 for a, b in ((first, last), (last, first))
-            ]
-        yield Slope(f"PL {i}", Strip(*curves, Polygon(area)))
+            )
+        yield Slope(f"PL {i}", Strip(top, toe, Polygon(area)))
 
 
 def real_dutch() -> Iterator[Slope | str]:

@@ -257,8 +257,7 @@ def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
 def least_length(value: Any, rule: Rule, ground: float) -> float:
     """Length in coordinate units of the shortest whole stroke to draw."""
     if value is None:
-        gap = rule.min_spacing if rule.factor is not None else rule.spacing or 0.0
-        return LEAST_LENGTH * gap
+        return LEAST_LENGTH * rule.least_gap
     if not is_number(value) or not 0.0 <= value < np.inf:
         msg = f"min_length is {shown(value)}, expected a number of 0 or more"
         raise ParameterError(msg)

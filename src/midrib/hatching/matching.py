@@ -29,7 +29,6 @@ class Drawn(NamedTuple):
     middle: Floats  # (n, 2) the point there
     on_top: Floats
     on_toe: Floats
-    gap: Floats  # (n,) that the rule asks for
     kept: Bools
     reason: str  # why others are not
 
@@ -40,7 +39,6 @@ class Drawn(NamedTuple):
             self.middle[rows],
             self.on_top[rows],
             self.on_toe[rows],
-            self.gap[rows],
             self.kept[rows],
             self.reason,
         )
@@ -80,11 +78,7 @@ def draw_by_matching(
 
 def spacing_of(rule: Rule) -> Spacing:
     """Return the rule for gaps as the kernels take it."""
-    if rule.factor is None:
-        fixed = max(rule.spacing or 0.0, rule.min_spacing)
-        return Spacing(0.0, fixed, fixed)
-    most = np.inf if rule.max_spacing is None else rule.max_spacing
-    return Spacing(float(rule.factor), float(rule.min_spacing), max(float(most), rule.min_spacing))
+    return Spacing(float(rule.factor or 0.0), float(rule.least_gap), float(rule.largest_gap))
 
 
 def check_count(middle: Middle, spacing: Spacing) -> None:
@@ -189,7 +183,6 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
         strokes.pivot[:, 1:3],
         strokes.chord[:, 2:4],
         strokes.chord[:, 4:6],
-        strokes.pivot[:, 5],
         kept,
         UNMATCHED,
     )
@@ -215,7 +208,6 @@ def with_ends(drawn: Drawn, middle: Middle) -> Drawn:
             np.insert(drawn.middle, place, (on_top + on_toe) / 2.0, axis=0),
             np.insert(drawn.on_top, place, on_top, axis=0),
             np.insert(drawn.on_toe, place, on_toe, axis=0),
-            np.insert(drawn.gap, place, drawn.gap[end] if drawn.gap.size else 0.0),
             np.insert(drawn.kept, place, True),
             drawn.reason,
         )

@@ -103,7 +103,7 @@ def measure_strokes(
     """Measure strokes, whoever drew them, in order along the top."""
     main, auxiliary, closed = strip.main, strip.auxiliary, strip.is_closed
     width = np.hypot(*(on_toe - on_top).T)
-    asked = gaps_asked(rule, width)
+    asked = rule.gaps(width)
     whole = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
     station = stations_on(middle, whole)
     between = (asked + np.roll(asked, -1)) / 2.0
@@ -147,15 +147,6 @@ def crossings(strokes: "NDArray[np.object_]") -> int:
     first, second = shapely.STRtree(strokes).query(strokes)
     pairs = first < second
     return int(np.count_nonzero(meet(segments, first[pairs], second[pairs])))
-
-
-def gaps_asked(rule: "Rule", width: "Floats") -> "Floats":
-    """Gaps that a rule asks for where strokes are so long."""
-    if rule.factor is None:
-        return np.full(len(width), max(rule.spacing or 0.0, rule.min_spacing))
-    most = np.inf if rule.max_spacing is None else rule.max_spacing
-    gaps: Floats = np.clip(rule.factor * width, rule.min_spacing, most)
-    return gaps
 
 
 def stations_on(middle: LineString, whole: "NDArray[np.object_]") -> "Floats":
