@@ -51,7 +51,8 @@ class Row(NamedTuple):
 def stations_of(strip: Strip, gap: float) -> Floats:
     """Stations on the top, about a gap apart."""
     count = max(round(strip.main.length / gap), 2)
-    return strip.main.length * np.arange(1, count) / count
+    stations: Floats = strip.main.length * np.arange(1, count) / count
+    return stations
 
 
 def by_normals(strip: Strip, stations: Floats) -> Ends:
@@ -109,7 +110,8 @@ RIVALS: dict[str, Callable[[Strip, Floats], Ends]] = {
 
 def points_at(line: LineString, stations: Floats) -> Floats:
     """Points of a line."""
-    return shapely.get_coordinates(shapely.line_interpolate_point(line, stations))
+    points: Floats = shapely.get_coordinates(shapely.line_interpolate_point(line, stations))
+    return points
 
 
 def gap_of(strip: Strip) -> float:
@@ -256,7 +258,8 @@ def worst_sheet(rows: list[Row], path: Path, count: int = 12) -> None:
         found = row.measures
         plot.set_title(
             f"{row.name}: spacing {found.spacing.min():.2f} to {found.spacing.max():.2f}, "
-            f"turn {found.turns.max(initial=0.0):.0f}°, gaps {found.top_gap:.2f} {found.toe_gap:.2f}"
+            f"turn {found.turns.max(initial=0.0):.0f}°, "
+            f"gaps {found.top_gap:.2f} {found.toe_gap:.2f}"
         )
     figure.tight_layout()
     path.parent.mkdir(parents=True, exist_ok=True)

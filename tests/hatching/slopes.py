@@ -11,10 +11,10 @@ from midrib.errors import MidribError
 
 __all__ = [
     "Floats",
-    "L",
     "annulus",
     "bands",
     "bend",
+    "elbow",
     "lens",
     "rectangle",
     "ring",
@@ -35,7 +35,7 @@ def trapezium() -> Strip:
     return Strip(LineString([(0, 12), (100, 12)]), LineString([(0, 0), (100, 6)]))
 
 
-def L() -> Strip:
+def elbow() -> Strip:
     """A corner of 90 degrees, the top on its outside."""
     return Strip(
         LineString([(0, 10), (0, 70), (60, 70)]), LineString([(10, 10), (10, 60), (60, 60)])

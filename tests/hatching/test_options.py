@@ -192,7 +192,7 @@ def test_wrong_options_are_refused(options: dict[str, Any], message: str) -> Non
 
 def test_wrong_geometries_are_refused() -> None:
     with pytest.raises(GeometryTypeError, match="strip is a Polygon, expected a Strip"):
-        hatch(box(0, 0, 9, 2))  # type: ignore[arg-type]
+        hatch(box(0, 0, 9, 2))
     with pytest.raises(GeometryTypeError, match=r"exclude\[1\] is a Point"):
         hatch(rectangle(), exclude=[box(0, 0, 1, 1), Point(0, 0)])
     with pytest.raises(InvalidAreaError, match="neither is around the other"):

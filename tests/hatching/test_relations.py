@@ -13,12 +13,22 @@ from shapely.affinity import rotate, scale, translate
 
 from midrib import Hatching, Strip, hatch
 from midrib.hatching.measures import measure
-from tests.hatching.slopes import L, Floats, annulus, bands, bend, lens, rectangle, rings, trapezium
+from tests.hatching.slopes import (
+    Floats,
+    annulus,
+    bands,
+    bend,
+    elbow,
+    lens,
+    rectangle,
+    rings,
+    trapezium,
+)
 
 SLOPES = {
     "rectangle": rectangle(),
     "trapezium": trapezium(),
-    "L": L(),
+    "L": elbow(),
     "lens": lens(),
     "bend": bend(),
     "annulus": annulus(),
