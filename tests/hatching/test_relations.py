@@ -132,8 +132,8 @@ def test_a_ring_has_no_seam() -> None:
     """Turned by half a turn it is slit open elsewhere; a tight ring shows what the ends do."""
     turn = np.append(np.arange(24), 0) * (np.pi / 12.0)
     unit = np.column_stack([np.cos(turn), np.sin(turn)])
-    inner = (3.0 + np.sin(2.0 * turn + 0.4))[:, None] * unit
-    outer = (12.0 + 3.0 * np.cos(3.0 * turn))[:, None] * unit
+    inner = (5.0 + np.sin(2.0 * turn + 0.4))[:, None] * unit
+    outer = (11.0 + 2.0 * np.cos(3.0 * turn))[:, None] * unit
     plain = hatch(Strip(LineString(inner), LineString(outer)), start="first", factor=0.2)
     turned = hatch(Strip(LineString(-inner), LineString(-outer)), start="first", factor=0.2)
     assert len(plain.strokes) == len(turned.strokes) > 10

@@ -9,15 +9,16 @@ from midrib.hatching.middle import middle_of
 from midrib.kernels.crossings import meet
 from midrib.kernels.ladder import Spacing, Strokes, build_ladder, draw_strokes
 from midrib.kernels.mending import mend
+from midrib.types import Bools
 
 
-def scrambled(turns: list[float]) -> tuple[Strokes, np.ndarray]:
+def scrambled(turns: list[float]) -> tuple[Strokes, Bools]:
     """Strokes of a rectangle whose calm directions are turned by so much, mended."""
     strip = Strip(LineString([(0, 10), (100, 10)]), LineString([(0, 0), (100, 0)]))
     middle = middle_of(strip)
     rule = Spacing(0.5, 0.1, np.inf)
     ladder = build_ladder(middle.mesh, middle.top, middle.toe, middle.line, rule, 0.9)
-    strokes = draw_strokes(ladder, 5.0 * np.arange(1, 20), rule)
+    strokes = draw_strokes(ladder, np.arange(5.0, 100.0, 5.0), rule)
     strokes.pivot[4 : 4 + len(turns), 3:5] += np.array(turns)[:, None]
     strokes.on[4 : 4 + len(turns)] = 0  # trouble
     return strokes, mend(ladder, strokes, middle.periods, 0.9)

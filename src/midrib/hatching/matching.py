@@ -121,10 +121,13 @@ def draw_around(
     stations %= length
     first = int(np.argmin(stations))
     strokes = draw_strokes(ladder, np.roll(stations, -first), spacing)
-    # The kernel mends from a calm stroke to itself: the seam goes where trouble is far.
+    # Mending goes from a calm stroke round to itself.
     seam = calmest(strokes, middle.periods)
-    strokes = rolled(strokes, seam, length, turn)
-    stays = mend(ladder, strokes, middle.periods, stiffness)
+    strokes = with_first_again(rolled(strokes, seam, length, turn), length, turn)
+    stays = mend(ladder, strokes, middle.periods, stiffness)[:-1]
+    strokes = Strokes(
+        strokes.pivot[:-1], strokes.triangle[:-1], strokes.chord[:-1], strokes.on[:-1]
+    )
     back = (-first - seam + (1 if from_right else 0)) % len(stations)
     return rolled(strokes, back, length, turn), np.roll(stays, -back)
 
@@ -159,6 +162,9 @@ def calmest(strokes: Strokes, periods: Floats) -> int:
     trouble = np.flatnonzero(~is_calm).tolist()
     if not trouble:
         return 0
+    if len(trouble) == n:
+        leads = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
+        return int(np.argmax(leads))
     runs = np.diff([*trouble, trouble[0] + n]).tolist()
     longest = int(np.argmax(runs))
     middle: int = (trouble[longest] + (runs[longest] + 1) // 2) % n
@@ -173,6 +179,14 @@ def rolled(strokes: Strokes, first: int, length: float, turn: float) -> Strokes:
         pivot[-first:, 0] += length
         pivot[-first:, 3:5] += turn
     pivot[:, 0] -= length * np.floor(pivot[0, 0] / length)
+    return Strokes(pivot, triangle, chord, on)
+
+
+def with_first_again(strokes: Strokes, length: float, turn: float) -> Strokes:
+    """Return the strokes of a closed slope and the first one again, a turn later."""
+    pivot, triangle, chord, on = (np.concatenate([part, part[:1]]) for part in strokes)
+    pivot[-1, 0] += length
+    pivot[-1, 3:5] += turn
     return Strokes(pivot, triangle, chord, on)
 
 

@@ -34,7 +34,8 @@ class Measures:
     crossings : int
         Pairs of strokes that have a point in common, by exact signs.
     outside : float
-        Length of what lies outside the slope, over the mean length of strokes.
+        Length of what lies outside the slope by more than rounding, over the mean length of
+        strokes; 0 where the slope covers every stroke by exact signs.
     short_of_edge : int
         Whole strokes of which an end is on no edge.
     spacing : (k,) array
@@ -111,9 +112,12 @@ def measure_strokes(
     count = len(steps)
     ratios = steps / between[:count]
     mean = float(ratios.mean()) if count else 1.0
-    outside = shapely.length(shapely.difference(strokes, strip.area)).sum() if len(strokes) else 0.0
     bounds = np.array(strip.area.bounds)
     reach = ON_EDGE * float(np.hypot(*(bounds[2:] - bounds[:2]))) + ROUNDING * abs(bounds).max()
+    outside = 0.0
+    if len(strokes) and not shapely.covers(strip.area, strokes).all():
+        near = strip.area.buffer(reach)  # what runs along the boundary is not outside
+        outside = float(shapely.length(shapely.difference(strokes, near)).sum())
     off = np.maximum(
         shapely.distance(shapely.points(on_top), main),
         shapely.distance(shapely.points(on_toe), auxiliary),
@@ -128,7 +132,7 @@ def measure_strokes(
     return Measures(
         strokes=len(strokes),
         crossings=crossings(strokes),
-        outside=float(outside / width.mean()) if len(width) else 0.0,
+        outside=outside / float(width.mean()) if len(width) else 0.0,
         short_of_edge=int(np.count_nonzero(is_long & (off > reach))),
         spacing=ratios / mean,
         stretch=mean,

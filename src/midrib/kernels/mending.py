@@ -223,7 +223,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     ladder : what they were drawn on
     strokes : in order along the middle line
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one; on a
-        closed one the last stroke is followed by the first, which must be calm
+        closed one the last stroke is the first one again, a turn later, and both stay as they are
     stiffness : as for the ladder
 
     Returns
@@ -232,7 +232,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
         Whether each stroke stays; those that do lead from top to toe, inside, and do not cross.
     """
     n = strokes.triangle.size
-    kept = np.ones(n, np.bool_)
+    kept, is_ring = np.ones(n, np.bool_), periods[0] > 0.0
     # 1. Runs of trouble.
     i = 0
     while i < n:
@@ -246,8 +246,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
             last += 1
             calm = calm + 1 if last < n - 1 and is_calm(strokes, last, periods) else 0
         last = max(last - REACH, i) if calm >= 2 * REACH else n - 1
-        is_ring = periods[0] > 0.0
-        fixed = (first > 0 or is_ring, last < n - 1)
+        fixed = (first > 0 or is_ring, last < n - 1 or is_ring)
         half, step = FAN, STEP
         for _ in range(LEVELS):
             choose(ladder, strokes, kept, first, last, fixed, periods, stiffness, half, step)
@@ -255,17 +254,15 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
         i = last + 1
     # 2. Rounding, and what could not be mended.
     before = -1
-    for i in range(n):
-        if not kept[i]:
-            continue
-        kept[i] = leads_down(strokes, i) and is_inside(ladder.ground.mesh, strokes, i)
+    for i in range(n - 1 if is_ring else n):
+        kept[i] = kept[i] and leads_down(strokes, i) and is_inside(ladder.ground.mesh, strokes, i)
         if kept[i] and before >= 0:
             kept[i] = is_ahead(strokes, before, i, periods)
         if kept[i]:
             before = i
-    if periods[0] > 0.0 and before > 0:
-        for i in range(n):
-            if kept[i]:
-                kept[before] = i == before or is_ahead(strokes, before, i, periods)
+    if is_ring:
+        for i in range(n - 2, 0, -1):
+            if kept[i] and is_ahead(strokes, i, n - 1, periods):
                 break
+            kept[i] = False
     return kept
