@@ -128,6 +128,8 @@ def draw_around(
     strokes = Strokes(
         strokes.pivot[:-1], strokes.triangle[:-1], strokes.chord[:-1], strokes.on[:-1]
     )
+    if not goes_round_once(strokes.chord[stays, :2], middle.periods[:2]):
+        stays[:] = False
     back = (-first - seam + (1 if from_right else 0)) % len(stations)
     return rolled(strokes, back, length, turn), np.roll(stays, -back)
 
@@ -180,6 +182,12 @@ def rolled(strokes: Strokes, first: int, length: float, turn: float) -> Strokes:
         pivot[-first:, 3:5] += turn
     pivot[:, 0] -= length * np.floor(pivot[0, 0] / length)
     return Strokes(pivot, triangle, chord, on)
+
+
+def goes_round_once(feet: Floats, periods: Floats) -> bool:
+    """Whether feet that go on along two closed edges, back to the first one, go round each once."""
+    ahead = (np.roll(feet, -1, axis=0) - feet) % periods
+    return len(feet) < 2 or bool((np.round(ahead.sum(axis=0) / periods) == 1.0).all())
 
 
 def with_first_again(strokes: Strokes, length: float, turn: float) -> Strokes:
