@@ -60,9 +60,15 @@ def test_spacing_and_its_bounds() -> None:
     assert feet.spacing == pytest.approx(np.full(len(feet.spacing), 8.0), rel=0.05)
 
 
-def test_a_standard_is_a_name_or_a_record() -> None:
+@pytest.mark.parametrize("least", [0.0, 0.7])
+def test_a_standard_is_a_name_or_a_record(least: float) -> None:
     record = SimpleNamespace(
-        factor=None, spacing=5.0, min_spacing=0.7, max_spacing=None, pattern="LSS", short_ratio=0.3
+        factor=None,
+        spacing=5.0,
+        min_spacing=least,
+        max_spacing=None,
+        pattern="LSS",
+        short_ratio=0.3,
     )
     hatching = hatch(rectangle(), record, 1000)
     assert hatching.spacing == pytest.approx(np.full(18, 5.0))
@@ -172,6 +178,7 @@ def test_editing_refuses_what_cannot_be() -> None:
         ({"metres_per_unit": -1}, "metres_per_unit is -1"),
         ({"factor": float("nan")}, "factor is nan"),
         ({"min_spacing": 0}, "min_spacing is 0"),
+        ({"factor": 1.0, "spacing": 1.0}, "factor is 1.0 and spacing 1.0"),
         ({"min_length": -1}, "min_length is -1"),
         ({"pattern": "SS"}, "pattern is 'SS'"),
         ({"pattern": "LX"}, "pattern is 'LX'"),

@@ -17,6 +17,7 @@ __all__ = ["LEAST_LENGTH", "Rule", "rule_of"]
 
 LEAST_LENGTH = 0.25  # of the least gap: about the width of the line, shorter strokes are dots
 MILLIMETRES = 1000.0
+VALUES = ("factor", "spacing", "min_spacing", "max_spacing", "pattern", "short_ratio")
 SHORTEST, LONGEST = 0.05, 0.95  # short strokes, of whole ones
 
 
@@ -101,22 +102,18 @@ def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -
     check_positive(metres_per_unit, "metres_per_unit")
     ground = float(scale) / MILLIMETRES / float(metres_per_unit)
     found: Standard = standard_of(standard) if isinstance(standard, str) else standard
-    names = ("factor", "spacing", "min_spacing", "max_spacing", "pattern", "short_ratio")
-    missing = [name for name in names if not hasattr(found, name)]
-    if missing:
+    if any(not hasattr(found, name) for name in VALUES):
         msg = f"standard is {shown(standard)}, expected a name or a Standard"
         raise ParameterError(msg)
-    values: dict[str, Any] = {name: getattr(found, name) for name in names}
+    values: dict[str, Any] = {name: getattr(found, name) for name in VALUES}
     given = {name: value for name, value in overrides.items() if value is not None}
-    if "spacing" in given:  # it wins over the standard's factor
-        values["factor"] = None
+    for name, other in (("factor", "spacing"), ("spacing", "factor")):
+        if name in given:
+            values[other] = None
     values |= given
-    for name in ("factor", "spacing", "min_spacing", "max_spacing"):
-        if values[name] is not None:
-            check_positive(values[name], name)
-    if values["factor"] is None and values["spacing"] is None:
-        msg = f"standard {shown(standard)} has neither factor nor spacing, expected one of them"
-        raise ParameterError(msg)
+    if given.get("min_spacing") == 0.0:
+        check_positive(given["min_spacing"], "min_spacing")
+    check_gaps(values)
     check_pattern(values["pattern"])
     ratio = values["short_ratio"]
     if not is_number(ratio) or not (SHORTEST <= ratio <= LONGEST or ratio == 1.0):
@@ -126,6 +123,21 @@ def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -
         if values[name] is not None:
             values[name] = float(values[name]) * ground
     return Rule(**values)
+
+
+def check_gaps(values: dict[str, Any]) -> None:
+    """Refuse gaps that are none, or set by a factor and fixed too.
+
+    Fixed gaps need no least one; where a factor makes them, they would come to 0 in tips.
+    """
+    factor, spacing = values["factor"], values["spacing"]
+    if (factor is None) == (spacing is None):
+        msg = f"factor is {shown(factor)} and spacing {shown(spacing)}, expected one of them"
+        raise ParameterError(msg)
+    for name in ("factor", "spacing", "min_spacing", "max_spacing"):
+        value = values[name]
+        if value is not None and not (name == "min_spacing" and factor is None and value == 0.0):
+            check_positive(value, name)
 
 
 def standard_of(name: str) -> Standard:
