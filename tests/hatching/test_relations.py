@@ -24,6 +24,7 @@ from tests.hatching.slopes import (
     rings,
     trapezium,
 )
+from tests.strategies import divided
 
 SLOPES = {
     "rectangle": rectangle(),
@@ -73,6 +74,16 @@ def check(hatching: Hatching) -> None:
 @settings(max_examples=60)
 def test_strokes_neither_cross_nor_leave(strip: Strip, share: float) -> None:
     check(hatch(strip, min_spacing=0.2, factor=share))
+
+
+@given(strip=divided(), scale=st.sampled_from([100, 1000]))
+@settings(max_examples=100)
+def test_no_area_however_odd_gets_a_wrong_picture(strip: Strip, scale: int) -> None:
+    """Folds, pockets, islands, rings closed by a touch: all is right, or left out and named."""
+    hatching = hatch(strip, scale=scale)
+    assert len(hatching.strokes) or hatching.problems
+    if len(hatching.strokes) < 200:
+        check(hatching)
 
 
 @given(strip=st.one_of(EVERY))

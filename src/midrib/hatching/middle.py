@@ -1,5 +1,6 @@
 """The middle line of a slope, beside its top, and the two edges as the kernels see them."""
 
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -61,9 +62,7 @@ def middle_of(strip: Strip) -> Middle:
 
 def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
     """Layout without islands whose main curve has the area on its left; whether it was turned."""
-    if strip.area.interiors:
-        strip = Strip(strip.main, strip.auxiliary, without_holes(strip.area))
-    layout = strip.layout
+    layout = filled_layout(strip)
     main, middle = layout.main, layout.middle
     if layout.mesh.tri[main.side[0]] == main.vertex[0]:
         return layout, False
@@ -78,6 +77,17 @@ def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
         ),
     )
     return turned, True
+
+
+def filled_layout(strip: Strip) -> Layout:
+    """Layout of a slope without its islands.
+
+    The edges of a ring that is closed by a touch run along its hole, which then stays.
+    """
+    if strip.area.interiors:
+        with suppress(InvalidAreaError):
+            return Strip(strip.main, strip.auxiliary, without_holes(strip.area)).layout
+    return strip.layout
 
 
 def capped(layout: Layout) -> Layout:
