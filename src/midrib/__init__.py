@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
 
@@ -22,6 +23,7 @@ __all__ = [
     "Problem",
     "Profile",
     "SpaceCurve",
+    "Standard",
     "Strip",
     "add_widths",
     "collapse",
@@ -31,6 +33,8 @@ __all__ = [
     "minimal_radii_3d",
     "profile",
     "split",
+    "standard",
+    "standards",
 ]
 
 HOME = {
@@ -39,6 +43,7 @@ HOME = {
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
     "SpaceCurve": "midrib.curves.space",
+    "Standard": "midrib.hatching.standards",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
     "collapse": "midrib.curves.collapse",
@@ -47,6 +52,8 @@ HOME = {
     "minimal_radii_3d": "midrib.curves.space",
     "profile": "midrib.profiles",
     "split": "midrib.strip",
+    "standard": "midrib.hatching.standards",
+    "standards": "midrib.hatching.standards",
 }
 
 

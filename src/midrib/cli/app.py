@@ -70,6 +70,23 @@ def methods() -> None:
     for method in midrib.methods():
         able = ("yes" if it else "no" for it in (method.supports_holes, method.is_exact))
         rows.append((method.name, method.source, *able, method.cost))
+    show(rows)
+
+
+@app.command()
+def standards() -> None:
+    """List the standards of hatching: name, symbol, confidence in its figures, what it is for."""
+    import midrib
+
+    rows: list[tuple[str, ...]] = [("name", "symbol", "confidence", "for", "source")]
+    for standard in midrib.standards():
+        texts = (standard.name, standard.symbol, standard.confidence)
+        rows.append((*texts, ", ".join(standard.kinds), standard.source))
+    show(rows)
+
+
+def show(rows: list[tuple[str, ...]]) -> None:
+    """Print a table, its heading first."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
