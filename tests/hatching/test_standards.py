@@ -141,7 +141,7 @@ def test_a_base_lends_no_confidence(tmp_path: Path) -> None:
     ("text", "sentence"),
     [
         ("spacing == 2", "is no TOML"),
-        (WHOLE + "spacin = 2", "has a key 'spacin', expected one of title, source"),
+        (WHOLE + "pitch = 2", "has a key 'pitch', expected one of title, source"),
         (WHOLE + 'short_ratio = "half"', "key 'short_ratio' is 'half', expected a number above 0"),
         (WHOLE + "short_ratio = 1.5", "key 'short_ratio' is 1.5"),
         (WHOLE + "min_spacing = -1", "key 'min_spacing' is -1"),
@@ -154,7 +154,7 @@ def test_a_base_lends_no_confidence(tmp_path: Path) -> None:
         (WHOLE + 'colour = "red"', "key 'colour' is 'red', expected a colour: #000000"),
         (WHOLE + "outline_dash = [1, 2, 3]", "key 'outline_dash' is"),
         (WHOLE + 'assumed = ["pitch"]', "'assumed' names 'pitch'"),
-        (WHOLE + "[scale.1000]\nspacin = 2", r"\[scale.1000\] has a key 'spacin'"),
+        (WHOLE + "[scale.1000]\npitch = 2", r"\[scale.1000\] has a key 'pitch'"),
         (WHOLE + "[scale.1000]\nfactor = 2", r"\[scale.1000\] has both keys"),
         (WHOLE + "[scale.huge]\nspacing = 2", "key 'scale' is"),
         (WHOLE + "base = [3]", r"key 'base' is \[3\]"),

@@ -17,7 +17,7 @@ CONFIDENCES = {
 }
 # Symbols made of strokes from top to toe, and those that stand on the axis or on the edges.
 STROKED = ("line", "wedge", "triangle", "filled-triangle", "tapered", "y", "tadpole")
-SYMBOLS = (*STROKED, "ticks", "steps", "circles", "template")
+SYMBOLS = (*STROKED, "ticks", "circles", "template")
 OUTLINES = ("all", "top", "none")
 
 

@@ -11,11 +11,16 @@ import tomllib
 from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
 
 from midrib.checks import shown
 from midrib.errors import ParameterError
 from midrib.hatching.keys import RULES, STROKED, checked, is_length
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
 
 __all__ = ["Standard", "choose", "standard", "standards"]
 
@@ -123,6 +128,15 @@ class Standard:
         known: dict[int, dict[str, Any]] = {BASE_SCALE: {}, **dict(self.by_scale)}
         nearest = min(known, key=lambda other: abs(math.log(other / scale)))
         return replace(self, **known[nearest], by_scale=())
+
+    def spacing_at(self, widths: "Floats") -> "Floats":
+        """Spacing where objects are so wide, both in millimetres on paper."""
+        apart = np.full(len(widths), self.spacing or 0.0)
+        if self.factor is not None:
+            apart = self.factor * widths
+        most = np.inf if self.max_spacing is None else self.max_spacing
+        clamped: Floats = np.clip(apart, self.min_spacing, most)
+        return clamped
 
     def with_values(self, **values: Any) -> "Standard":
         """Return the standard with some values of the caller's, which hold at every scale.
@@ -305,7 +319,7 @@ def consistent(found: Standard, where: str) -> Standard:
     rules = {
         f"a symbol {found.symbol!r} and no lines in key 'template'": found.symbol == "template"
         and not found.template,
-        f"a symbol {found.symbol!r} and no key 'spacing'": found.symbol in {"ticks", "steps"}
+        f"a symbol {found.symbol!r} and no key 'spacing'": found.symbol == "ticks"
         and not has_spacing,
         "both keys 'factor' and 'spacing', expected one of them": has_factor and has_spacing,
         "neither key 'factor' nor 'spacing', expected one of them": found.symbol
