@@ -142,7 +142,10 @@ def test_a_base_lends_no_confidence(tmp_path: Path) -> None:
     [
         ("spacing == 2", "is no TOML"),
         (WHOLE + "pitch = 2", "has a key 'pitch', expected one of title, source"),
-        (WHOLE + 'short_ratio = "half"', "key 'short_ratio' is 'half', expected a number above 0"),
+        (
+            WHOLE + 'short_ratio = "half"',
+            "key 'short_ratio' is 'half', expected a number from 0.05",
+        ),
         (WHOLE + "short_ratio = 1.5", "key 'short_ratio' is 1.5"),
         (WHOLE + "min_spacing = -1", "key 'min_spacing' is -1"),
         (WHOLE + "max_spacing = inf", "key 'max_spacing' is inf"),
@@ -150,7 +153,7 @@ def test_a_base_lends_no_confidence(tmp_path: Path) -> None:
         (WHOLE + "factor = 0.5", "has both keys 'factor' and 'spacing'"),
         (WHOLE + "gentle_factor = 1", "has one of the keys 'gentle_factor' and 'gentle_run'"),
         (WHOLE + "min_spacing = 2\nmax_spacing = 1", "'max_spacing' below 'min_spacing'"),
-        (WHOLE + 'pattern = "SL"', "key 'pattern' is 'SL', expected L for long"),
+        (WHOLE + 'pattern = "SS"', "key 'pattern' is 'SS', expected L for long"),
         (WHOLE + 'colour = "red"', "key 'colour' is 'red', expected a colour: #000000"),
         (WHOLE + "outline_dash = [1, 2, 3]", "key 'outline_dash' is"),
         (WHOLE + 'assumed = ["pitch"]', "'assumed' names 'pitch'"),

@@ -18,6 +18,7 @@ CONFIDENCES = {
 # Symbols made of strokes from top to toe, and those that stand on the axis or on the edges.
 STROKED = ("line", "wedge", "triangle", "filled-triangle", "tapered", "y", "tadpole")
 SYMBOLS = (*STROKED, "ticks", "circles", "template")
+SHORTEST, LONGEST = 0.05, 0.95  # short strokes, as shares of long ones
 OUTLINES = ("all", "top", "none")
 
 
@@ -85,8 +86,11 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "max_spacing": LENGTH,
     "gentle_factor": NUMBER,
     "gentle_run": NUMBER,
-    "pattern": matches("L[LS]*", "L for long and S for short strokes, a long one first: LS"),
-    "short_ratio": SHARE,
+    "pattern": matches("S*L[LS]*", "L for long and S for short strokes, an L among them: LS"),
+    "short_ratio": (
+        lambda value: is_number(value) and (SHORTEST <= value <= LONGEST or value == 1.0),
+        f"a number from {SHORTEST} to {LONGEST}, or 1",
+    ),
     "wedge_below": (lambda value: value == 0 or is_length(value), "a length in millimetres"),
     "symbol_width": LENGTH,
     "pair": (lambda value: value == 0 or is_length(value), "a length in millimetres"),
