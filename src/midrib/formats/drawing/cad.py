@@ -30,6 +30,7 @@ UNITS = {1.0: 6, 0.3048: 2, 1200.0 / 3937.0: 21, 0.001: 4, 0.01: 5, 1000.0: 7}  
 FORBIDDEN = re.compile(r'[<>/\\":;?*|=`,]')  # in names of layers and blocks
 BLACK, RED = 7, 1  # colour 7 is black on white and white on black
 TEXT, MARGIN = 2.0, 10.0  # millimetres: height of notes, margin of the layout
+DASHES = ("DASHED", "DASHED2", "DASHEDX2")  # LibreCAD draws no line types by other names
 STRING, INTEGER = 1000, 1071  # group codes of extended data
 
 
@@ -78,7 +79,8 @@ def add_layers(document: "Document", known: "Standard", millimetre: float) -> No
     """Add the layers of a standard, and the type of its outline."""
     linetype = "CONTINUOUS"
     if known.outline_dash:
-        linetype = layer_name(known, "dash")
+        used = sum(name in document.linetypes for name in DASHES)
+        linetype = DASHES[used] if used < len(DASHES) else layer_name(known, "dash")
         lengths = np.array(known.outline_dash) * millimetre
         lengths[1::2] *= -1.0  # gaps
         pattern = [float(abs(lengths).sum()), *map(float, lengths)]
@@ -190,6 +192,12 @@ def add_layout(document: "Document", drawing: "Drawing") -> None:
         view_height=float(high[1] - low[1]) or drawing.millimetre,
         status=1,
     )
+    # LibreCAD prints the model on paper with the limits of the layout, in units of the drawing.
+    layout.dxf.limmin, layout.dxf.limmax = (
+        (0.0, 0.0),
+        tuple(sheet / 1000.0 / drawing.metres_per_unit),
+    )
+    document.header["$PSVPSCALE"] = 1.0 / drawing.scale
     document.set_modelspace_vport(
         height=1.1 * max(float(high[1] - low[1]), drawing.millimetre),
         center=tuple((low + high) / 2.0),
