@@ -33,7 +33,8 @@ class Strip:
     ----------
     main, auxiliary : LineString
         The two curves. The auxiliary one may run either way; it is turned to run beside the main
-        one. Where they do not share an end, a straight cap joins them.
+        one. Where they do not share an end, a straight cap joins them. Two closed curves, one
+        around the other, bound a ring, such as the slope around a mound.
     area : Polygon, optional
         The area they bound, with holes if it has any. Built from the curves and straight caps if
         it is not given.
@@ -70,7 +71,11 @@ class Strip:
     ) -> None:
         main, auxiliary = checked_curve(main, "main"), checked_curve(auxiliary, "auxiliary")
         ways = beside(auxiliary, main)
-        if area is None:
+        if main.is_ring and auxiliary.is_ring:
+            area = area_between(main, auxiliary, area)
+            if shapely.is_ccw(main) != shapely.is_ccw(auxiliary):
+                auxiliary = shapely.reverse(auxiliary)
+        elif area is None:
             auxiliary, ring = ways[0], ring_of(main, ways[0])
             check_ring(main, auxiliary, ring)
             area = Polygon(ring)
@@ -99,9 +104,25 @@ class Strip:
         strip.__dict__["layout"] = layout
         return strip
 
+    @property
+    def is_closed(self) -> bool:
+        """Whether the two curves are closed, one around the other."""
+        return bool(self.main.is_ring and self.auxiliary.is_ring)
+
     @cached_property
     def layout(self) -> Layout:
-        """The strip as the kernels see it."""
+        """The strip as the kernels see it.
+
+        Raises
+        ------
+        InvalidAreaError
+            If the curves are closed: then there is no end for a line to start from.
+        """
+        if self.is_closed:
+            msg = (
+                "main and auxiliary are closed, expected curves with ends; midrib.hatch takes both"
+            )
+            raise InvalidAreaError(msg)
         boundary = boundary_of(*rings_of_area(self.area))
         middle = shapely.get_coordinates(self.main.interpolate(0.5, normalized=True))
         corners = shapely.get_coordinates([self.main, self.auxiliary])
@@ -300,6 +321,38 @@ def ring_of(main: LineString, auxiliary: LineString) -> "Floats":
     distinct = np.ones(ring.shape[0], dtype=np.bool_)
     distinct[1:] = (ring[1:, :2] != ring[:-1, :2]).any(axis=1)
     return ring[distinct]
+
+
+def area_between(main: LineString, auxiliary: LineString, area: Polygon | None) -> Polygon:
+    """Return the area between two closed curves, one around the other.
+
+    Raises
+    ------
+    InvalidAreaError
+        If neither is around the other, or they are not the two rings of the area that is given.
+    """
+    inner, outer = sorted((main, auxiliary), key=lambda curve: Polygon(curve).area)
+    between = Polygon(outer.coords, [inner.coords])
+    if not between.is_valid:
+        reason = shapely.is_valid_reason(between)
+        msg = f"main and auxiliary are closed, but neither is around the other: {reason}"
+        raise InvalidAreaError(msg)
+    if area is None:
+        return between
+    area = area_of_one(area, "area")
+    near = ON_BOUNDARY * diagonal(area)
+    rings = LineString(area.exterior), *(LineString(ring) for ring in area.interiors)
+    for curve, ring in zip((outer, inner), rings, strict=False):
+        place = far_from(curve, ring, near)
+        place = far_from(ring, curve, near) if place is None else place
+        if place is not None:
+            name = "main" if curve is main else "auxiliary"
+            msg = f"{name} and the boundary of area part at {place_text(place)}"
+            raise InvalidAreaError(msg)
+    if len(rings) != 2:
+        msg = f"area has {len(rings) - 1} holes, expected 1 between two closed curves"
+        raise InvalidAreaError(msg)
+    return area
 
 
 def check_ring(main: LineString, auxiliary: LineString, ring: "Floats") -> None:

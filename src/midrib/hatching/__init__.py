@@ -1,1 +1,7 @@
-"""Areas to strokes: the hatching of slopes, and the symbols it is made of."""
+"""Strokes from the top of a slope to its toe."""
+
+from midrib.hatching.finishing import Problem
+from midrib.hatching.hatch import Hatching, hatch
+from midrib.hatching.rule import Rule
+
+__all__ = ["Hatching", "Problem", "Rule", "hatch"]

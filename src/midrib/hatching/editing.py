@@ -1,0 +1,1 @@
+"""Changes of a hatching by hand: one stroke more, elsewhere, or less."""

@@ -1,0 +1,147 @@
+"""From whole strokes to a hatching: which are drawn, how long, and what there is to say."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import shapely
+from shapely import LineString, MultiPolygon, Point, Polygon
+
+from midrib.errors import GeometryTypeError
+from midrib.hatching.matching import Drawn
+from midrib.hatching.rule import Rule
+from midrib.strip import Strip
+from midrib.types import Bools, Floats
+
+__all__ = ["Finished", "Problem", "finish", "lines_of", "zones_of"]
+
+LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other
+
+
+class Problem(NamedTuple):
+    """A place where a hatching is not what the rule asks for, and why."""
+
+    where: Point
+    reason: str
+
+
+class Finished(NamedTuple):
+    """Which strokes are drawn, and how much of each."""
+
+    kept: Bools
+    is_long: Bools
+    share: Floats  # of the whole stroke
+    problems: list[Problem]
+
+
+def finish(
+    drawn: Drawn, rule: Rule, least: float, first: str | None, zones: Any, strip: Strip
+) -> Finished:
+    """Decide what is drawn.
+
+    The pattern counts the strokes that have a place, whether a zone hides them or not.
+    """
+    problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
+    width = np.hypot(*(drawn.on_toe - drawn.on_top).T)
+    kept = drawn.kept & (width >= least)
+    if drawn.kept.any() and not kept.any():
+        middle = drawn.middle[len(drawn.middle) // 2]
+        reason = f"the slope is nowhere as wide as the shortest stroke, {least:.3g}; none is drawn"
+        problems.append(Problem(Point(middle), reason))
+    kept &= ~too_near(drawn, kept, problems)
+    is_long = np.zeros(kept.size, dtype=np.bool_)
+    letters = pattern_from(rule.pattern, first)
+    is_long[kept] = [letters[k % len(letters)] == "L" for k in range(np.count_nonzero(kept))]
+    share = np.where(is_long, 1.0, rule.short_ratio)
+    shorten(drawn, kept & is_long, share, problems)
+    hide(drawn, kept, share, zones, strip, problems)
+    return Finished(kept, is_long, share, problems)
+
+
+def pattern_from(pattern: str, first: str | None) -> str:
+    """Return the pattern, begun where it has a long or a short stroke if asked to."""
+    letter = {"long": "L", "short": "S"}.get(first or "")
+    if letter is None or letter not in pattern:
+        return pattern
+    at = pattern.index(letter)
+    return pattern[at:] + pattern[:at]
+
+
+def too_near(drawn: Drawn, kept: Bools, problems: list[Problem]) -> Bools:
+    """Which strokes begin so near to the one before that only one of them can be drawn."""
+    rows = np.flatnonzero(kept)
+    near = np.zeros(kept.size, dtype=np.bool_)
+    if rows.size < 2:
+        return near
+    steps = np.hypot(*np.diff(drawn.on_top[rows], axis=0).T)
+    if (steps >= LEAST_FOOT * drawn.gap[rows[1:]]).all():
+        return near
+    last = rows[0]
+    for row in rows[1:]:
+        step = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[last])))
+        if step < LEAST_FOOT * drawn.gap[row]:
+            near[row] = True
+            reason = "strokes would begin too near to each other; one is left out"
+            problems.append(Problem(Point(drawn.on_top[row]), reason))
+        else:
+            last = row
+    return near
+
+
+def shorten(drawn: Drawn, whole: Bools, share: Floats, problems: list[Problem]) -> None:
+    """Let whole strokes end where the one before is still far enough, if not at the toe."""
+    rows = np.flatnonzero(whole)
+    foot = np.hypot(*np.diff(drawn.on_toe[rows], axis=0).T)
+    least = LEAST_FOOT * drawn.gap[rows[1:]]
+    for k in np.flatnonzero(foot < least):
+        row = rows[k + 1]
+        head = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[rows[k]])))
+        share[row] = (
+            min(max((head - least[k]) / (head - foot[k]), 0.0), 1.0) if head > foot[k] else 1.0
+        )
+        reason = "whole strokes would end too near to each other; one ends before the toe"
+        problems.append(Problem(Point(drawn.on_toe[row]), reason))
+
+
+def hide(
+    drawn: Drawn, kept: Bools, share: Floats, zones: Any, strip: Strip, problems: list[Problem]
+) -> None:
+    """Leave out strokes that enter a zone or meet an island."""
+    islands = [] if strip.is_closed else [Polygon(ring) for ring in strip.area.interiors]
+    if not islands and zones is None:
+        return
+    rows = np.flatnonzero(kept)
+    lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
+    if zones is not None:
+        kept[rows[shapely.intersects(lines, zones)]] = False
+    for island in islands:
+        for row in rows[shapely.intersects(lines, island)]:
+            if kept[row]:
+                kept[row] = False
+                reason = "an island of the slope is in the way; one stroke is left out"
+                problems.append(Problem(Point(drawn.middle[row]), reason))
+
+
+def lines_of(on_top: Floats, on_toe: Floats, share: Floats) -> Any:
+    """Strokes from the top on, as much of each as its share."""
+    end = on_top + share[:, None] * (on_toe - on_top)
+    end = np.where((share == 1.0)[:, None], on_toe, end)
+    return shapely.linestrings(np.stack([on_top, end], axis=1))
+
+
+def zones_of(exclude: Any) -> Any:
+    """One geometry of all zones, or None.
+
+    Raises
+    ------
+    GeometryTypeError
+        If a zone is not polygonal.
+    """
+    if exclude is None:
+        return None
+    zones = list(np.atleast_1d(np.asarray(exclude, dtype=object)))
+    for i, zone in enumerate(zones):
+        if not isinstance(zone, Polygon | MultiPolygon):
+            kind = getattr(zone, "geom_type", type(zone).__name__)
+            msg = f"exclude[{i}] is a {kind}, expected a Polygon or MultiPolygon"
+            raise GeometryTypeError(msg)
+    return shapely.union_all(zones)

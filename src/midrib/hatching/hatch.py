@@ -1,0 +1,282 @@
+"""Hatching a slope: strokes from its top to its toe that never cross."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from midrib.checks import check_flag, is_number, shown
+from midrib.errors import GeometryTypeError, ParameterError
+from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
+from midrib.hatching.matching import Drawn, Ground, Start, draw_by_matching
+from midrib.hatching.paper import draw_by_paper
+from midrib.hatching.rule import LEAST_LENGTH, MILLIMETRES, Rule, rule_of
+from midrib.strip import Strip
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from midrib.types import Bools, Floats
+
+__all__ = ["Hatching", "hatch"]
+
+STIFFNESS = 0.9  # see hatch
+STARTS = ("left", "right", "first", "last")
+RULES = ("matching", "paper")
+
+
+@dataclass(frozen=True, eq=False)
+class Hatching:
+    """Strokes of a slope, in order along its top.
+
+    Attributes
+    ----------
+    strokes : (n,) array of LineString
+        From the top down; long ones reach the toe, short ones stop on the way.
+    is_long : (n,) array of bool
+    width : (n,) array of float
+        Lengths of the whole strokes from top to toe, in coordinate units.
+    on_top, on_toe : (n, 2) arrays of float
+        Ends of the whole strokes.
+    spacing : (n - 1,) array of float, (n,) on a closed slope
+        Distances from each stroke to the next one along the middle line.
+    problems : list of Problem
+        Places where a stroke had to be left out or shortened, with the reason.
+    strip, standard, scale
+        What was hatched, and how.
+    rule : Rule
+        The standard's rule with all overrides, in coordinate units.
+    station, share : (n,) arrays of float
+        Where on the middle line each stroke is, and how much of the whole stroke is drawn.
+    """
+
+    strokes: "NDArray[np.object_]"
+    is_long: "Bools"
+    width: "Floats"
+    on_top: "Floats"
+    on_toe: "Floats"
+    spacing: "Floats"
+    problems: list[Problem]
+    strip: Strip
+    standard: Any
+    scale: float
+    rule: Rule
+    station: "Floats"
+    share: "Floats"
+    ground: Ground | None = field(repr=False, default=None)  # for editing
+
+    def __repr__(self) -> str:
+        """Show what there is of it."""
+        long = int(np.count_nonzero(self.is_long))
+        return (
+            f"<Hatching: {long} long strokes, {self.is_long.size - long} short ones, "
+            f"{len(self.problems)} problems>"
+        )
+
+
+def hatch(
+    strip: Strip,
+    standard: Any = "pl-2021-slope-unreinforced",
+    scale: float = 500.0,
+    *,
+    rule: Literal["matching", "paper"] = "matching",
+    metres_per_unit: float = 1.0,
+    factor: float | None = None,
+    spacing: float | None = None,
+    min_spacing: float | None = None,
+    max_spacing: float | None = None,
+    min_length: float | None = None,
+    pattern: str | None = None,
+    short_ratio: float | None = None,
+    start: Start = "left",
+    offset: float = 1.0,
+    first: Literal["long", "short"] | None = None,
+    end_strokes: bool = False,
+    exclude: Any = None,
+    stiffness: float = STIFFNESS,
+) -> Hatching:
+    """Hatch a slope with strokes from its top to its toe.
+
+    Strokes follow each other evenly along the middle line, nearly at right angles to both edges.
+    None crosses another one or leaves the slope, and every long one reaches from edge to edge.
+
+    Parameters
+    ----------
+    strip : Strip
+        The slope: ``main`` is its top, ``auxiliary`` its toe. Both may be closed. Islands are left
+        out: strokes that would meet one are not drawn.
+    standard : str or Standard, default "pl-2021-slope-unreinforced"
+        How strokes are spaced and how long they are, on paper; ``midrib.standards()`` lists them.
+    scale : float, default 500
+        The map's scale is 1 : ``scale``.
+    rule : {"matching", "paper"}, default "matching"
+        "matching" is the engine described here. "paper" is the procedure of the paper, for
+        comparison: from each point of the top to the nearest of the toe that it sees; such
+        strokes may share feet.
+    metres_per_unit : float, default 1
+        Length of a unit of the coordinates.
+    factor : float, optional
+        Gap between strokes over their length, in place of the standard's.
+    spacing : float, optional
+        Fixed gap in paper millimetres, in place of a factor.
+    min_spacing, max_spacing : float, optional
+        Least and largest gap in paper millimetres, in place of the standard's.
+    min_length : float, optional
+        Whole strokes shorter than this on paper, in millimetres, are not drawn: at tips, strokes
+        end there. A quarter of the least gap unless given, about the width of the line.
+    pattern : str, optional
+        Long and short strokes in turn: "LS", "LSS", "LSSL", "L".
+    short_ratio : float, optional
+        Length of a short stroke over that of a whole one, 0.05 to 0.95; 1 makes no difference.
+    start : {"left", "right", "first", "last"}, default "left"
+        Where the pattern starts: at the end of the slope that is on the left, or right, as one
+        looks down from the top, or at the first, or last, point of the top. On closed slopes
+        "left" and "right" start at the leftmost vertex of the top, "first" and "last" at its
+        first one.
+    offset : float, default 1
+        Where the first stroke falls, in gaps from the start; the last is as far from the end.
+    first : {"long", "short"}, optional
+        What the first stroke is; that of the pattern unless given.
+    end_strokes : bool, default False
+        Draw whole strokes on the straight ends of the slope too, where it has such ends.
+    exclude : Polygon, MultiPolygon or sequence of them, optional
+        Zones that no stroke may enter; the others stay where they are.
+    stiffness : float, default 0.9
+        Over how many lengths of stroke directions are evened out. More turns slower at corners
+        and is calmer under noise; less keeps strokes nearer to the normals of the edges.
+
+    Returns
+    -------
+    Hatching
+        ``strokes``, ``is_long``, ``width`` and more; ``problems`` names each place where a stroke
+        had to be left out or shortened.
+
+    Raises
+    ------
+    GeometryTypeError
+        If ``strip`` is not a Strip.
+    ParameterError
+        If an option has a value it cannot have.
+    InvalidAreaError
+        If the slope has no middle line: its edges see nothing of each other.
+
+    Notes
+    -----
+    1. The centred curve of minimal radii of the slope is the middle line. 2. Directions along it
+    are the smoothing spline of its normals. 3. The gap that the rule asks
+    for, b = clamp(factor w, least, largest), is integrated along the line: strokes lie where the
+    integral of 1 / b passes whole numbers, after stretching to a whole count of gaps. 4. From
+    each point on the line the stroke goes both ways until it meets the boundary. 5. Where strokes
+    would not advance on both edges, a run of them chooses other directions. Time is nearly linear
+    in vertices and strokes.
+
+    Strokes advance on both edges, so that the ends of two never interleave on the boundary, and
+    lie inside: therefore they do not cross (docs/hatching.md has the proof). This is checked by
+    exact signs at the end.
+
+    References
+    ----------
+    Buczek, Area collapse algorithm computing new curve of 2D geometric objects, Geodesy and
+    Cartography 66(1), 2017, 23-44, section 5 and Eq. 2.
+
+    Examples
+    --------
+    >>> hatching = hatch(split(box(0, 0, 12, 4)), scale=500)
+    >>> [stroke.wkt for stroke in hatching.strokes[:2]]
+    ['LINESTRING (2 0, 2 4)', 'LINESTRING (4 0, 4 2)']
+    """
+    if not isinstance(strip, Strip):
+        kind = getattr(strip, "geom_type", type(strip).__name__)
+        msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
+        raise GeometryTypeError(msg)
+    ground = rule_of(
+        standard, scale, metres_per_unit, factor=factor, spacing=spacing, min_spacing=min_spacing,
+        max_spacing=max_spacing, pattern=pattern, short_ratio=short_ratio,
+    )  # fmt: skip
+    check_choice(rule, "rule", RULES)
+    check_choice(start, "start", STARTS)
+    check_choice(first, "first", (None, "long", "short"))
+    check_flag(end_strokes, "end_strokes")
+    check_above_zero(offset, "offset")
+    check_above_zero(stiffness, "stiffness")
+    least = least_length(min_length, ground, scale / MILLIMETRES / metres_per_unit)
+    zones = zones_of(exclude)
+    where: Ground | None = None
+    if rule == "paper":
+        drawn = draw_by_paper(strip, ground)
+    else:
+        drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness)
+    finished = finish(drawn, ground, least, first, zones, strip)
+    return assemble(
+        drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
+    )
+
+
+def assemble(
+    drawn: Drawn, finished: Finished, ground: Ground | None, *, strip: Strip, standard: Any,
+    scale: float, rule: Rule,
+) -> Hatching:  # fmt: skip
+    """Put a hatching together, its strokes in the order of the caller's top."""
+    rows = np.flatnonzero(finished.kept)
+    if ground is not None and ground.from_right != ground.middle.is_turned:
+        rows = rows[::-1]
+    on_top, on_toe, share = drawn.on_top[rows], drawn.on_toe[rows], finished.share[rows]
+    station = drawn.station[rows]
+    return Hatching(
+        strokes=lines_of(on_top, on_toe, share),
+        is_long=finished.is_long[rows],
+        width=np.hypot(*(on_toe - on_top).T),
+        on_top=on_top,
+        on_toe=on_toe,
+        spacing=gaps_between(station, ground),
+        problems=finished.problems,
+        strip=strip,
+        standard=standard,
+        scale=scale,
+        rule=rule,
+        station=station,
+        share=share,
+        ground=ground,
+    )
+
+
+def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
+    """Distances between neighbours along the middle line; on a closed one from last to first too."""
+    if ground is None or not ground.middle.is_closed:
+        gaps: Floats = abs(np.diff(station))
+        return gaps
+    total = ground.ladder.rungs[-1, 0]
+    ahead = (np.roll(station, -1) - station) % total
+    behind = (station - np.roll(station, -1)) % total
+    shorter: Floats = (
+        np.minimum(ahead, behind) if station.size > 1 else np.full(station.size, total)
+    )
+    return shorter
+
+
+def least_length(value: Any, rule: Rule, ground: float) -> float:
+    """Length in coordinate units of the shortest whole stroke to draw."""
+    if value is None:
+        gap = rule.min_spacing if rule.factor is not None else rule.spacing or 0.0
+        return LEAST_LENGTH * gap
+    if not is_number(value) or not 0.0 <= value < np.inf:
+        msg = f"min_length is {shown(value)}, expected a number of 0 or more"
+        raise ParameterError(msg)
+    return float(value) * ground
+
+
+def check_choice(value: Any, name: str, choices: tuple[str | None, ...]) -> None:
+    """Refuse what is none of the choices."""
+    if not (value is None or isinstance(value, str)) or value not in choices:
+        msg = f"{name} is {shown(value)}, expected {' or '.join(map(repr, choices))}"
+        raise ParameterError(msg)
+
+
+def check_above_zero(value: Any, name: str) -> None:
+    """Refuse what is no finite number above 0."""
+    if not is_number(value) or not 0.0 < value < np.inf:
+        msg = f"{name} is {shown(value)}, expected a number above 0"
+        raise ParameterError(msg)

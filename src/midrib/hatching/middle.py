@@ -1,0 +1,175 @@
+"""The middle line of a slope, beside its top, and the two edges as the kernels see them."""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from midrib.curves.construction import Construction
+from midrib.errors import InvalidAreaError
+from midrib.kernels.chain import Chain
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.slit import around, slit_open
+from midrib.layout import Boundary, EndPoints, Layout, boundary_of
+from midrib.ragged import place_text, rings_of_area, without_holes
+from midrib.strip import PLANE, Strip
+from midrib.types import Floats
+
+__all__ = ["Middle", "lay_out_slope", "middle_of"]
+
+NO_ENDS = EndPoints(
+    np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2), dtype=np.intp), np.empty(0)
+)
+
+
+class Middle(NamedTuple):
+    """A slope with its middle line; the top runs with the area on its left, the others beside it.
+
+    That is so whichever way the caller's top runs: strokes do not depend on it.
+    """
+
+    mesh: Mesh
+    top: Chain
+    toe: Chain
+    line: Floats  # (m, 2), of a closed slope closed
+    is_turned: bool  # whether the caller's top runs the other way
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether the slope goes all the way round."""
+        return bool((self.line[0] == self.line[-1]).all())
+
+    @property
+    def periods(self) -> Floats:
+        """Lengths of closed edges, 0 of open ones."""
+        lengths = np.array([self.top.arc[-1], self.toe.arc[-1]])
+        return lengths if self.is_closed else np.zeros(2)
+
+
+def middle_of(strip: Strip) -> Middle:
+    """Middle line of a slope: as far from the top as from the toe."""
+    if strip.is_closed:
+        return middle_of_ring(strip)
+    layout, is_turned = lay_out_slope(strip)
+    _, path = Construction(centring="centred", ends="caps").of(layout)
+    return Middle(layout.mesh, layout.main, layout.auxiliary, path.points, is_turned)
+
+
+def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
+    """Layout without islands whose main curve has the area on its left; whether it was turned."""
+    if strip.area.interiors:
+        strip = Strip(strip.main, strip.auxiliary, without_holes(strip.area))
+    layout = strip.layout
+    main = layout.main
+    if layout.mesh.tri[main.side[0]] == main.vertex[0]:
+        return layout, False
+    turned = layout._replace(
+        main=backwards(main),
+        auxiliary=backwards(layout.auxiliary),
+        middle=EndPoints(*(part[::-1].copy() for part in layout.middle)),
+    )
+    return turned, True
+
+
+def backwards(chain: Chain) -> Chain:
+    """Return the same chain the other way."""
+    arc = chain.arc[-1] - chain.arc[::-1]
+    return Chain(chain.vertex[::-1].copy(), chain.side[::-1].copy(), arc)
+
+
+def middle_of_ring(strip: Strip) -> Middle:
+    """Middle line of a slope around a mound or a pit.
+
+    Of the ring slit open at one seam, half of the line is taken, far from the seam; the other half
+    of the ring slit open on the other side.
+    """
+    boundary = boundary_of(*rings_of_area(strip.area))
+    mesh = boundary.mesh
+    hole_side = side_of_hole(boundary)
+    top_is_hole = shapely.Polygon(strip.main).area < shapely.Polygon(strip.auxiliary).area
+    sides = (
+        (hole_side, int(boundary.side[0])) if top_is_hole else (int(boundary.side[0]), hole_side)
+    )
+    top_vertex, toe_vertex = (int(mesh.tri[side]) for side in sides)
+    top = around(mesh, sides[0], top_vertex, top_vertex, False)
+    toe = around(mesh, sides[1], toe_vertex, toe_vertex, True)
+    seam, other = seams(mesh, top, toe)
+    width = 2.0 * strip.area.area / (top.arc[-1] + toe.arc[-1])
+    station = dict(zip(top.vertex[:-1].tolist(), top.arc[:-1].tolist(), strict=True))
+    at = [station[int(mesh.tri[e])] for e in (seam, other)]
+    ahead = (at[1] - at[0]) % top.arc[-1]  # from the seam to the other one
+    behind = top.arc[-1] - ahead
+    halves = [
+        half_of(mesh, sides, seam, width, (ahead / 2.0, ahead + behind / 2.0)),
+        half_of(mesh, sides, other, width, (behind / 2.0, behind + ahead / 2.0)),
+    ]
+    line = np.concatenate([halves[0][:-1], halves[1]])
+    line[-1] = line[0]  # the same point, up to the tolerance of centring
+    line = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
+    is_turned = shapely.is_ccw(shapely.LinearRing(strip.main.coords)) == top_is_hole
+    return Middle(mesh, top, toe, line, bool(is_turned))
+
+
+def side_of_hole(boundary: Boundary) -> int:
+    """Return a boundary side of the only hole.
+
+    Raises
+    ------
+    InvalidAreaError
+        If the hole touches the shell.
+    """
+    mesh = boundary.mesh
+    on_shell = np.zeros(mesh.tri.size, dtype=np.bool_)
+    on_shell[boundary.side] = True
+    hole_sides = np.flatnonzero((mesh.twin < 0) & ~on_shell)
+    touching = np.intersect1d(mesh.tri[hole_sides], mesh.tri[boundary.side])
+    if touching.size:
+        place = place_text(np.array([mesh.x[touching[0]], mesh.y[touching[0]]]))
+        msg = f"top and toe touch at {place}, expected rings apart from each other"
+        raise InvalidAreaError(msg)
+    return int(hole_sides[0])
+
+
+def seams(mesh: Mesh, top: Chain, toe: Chain) -> tuple[int, int]:
+    """Two half-edges from top to toe that are far from each other.
+
+    The first leaves the leftmost, lowest vertex of the top that has one, so that it does not
+    depend on where rings start.
+    """
+    start = mesh.tri
+    stop = mesh.tri[np.arange(mesh.tri.size) // 3 * 3 + (np.arange(mesh.tri.size) + 1) % 3]
+    places = [np.full(mesh.x.size, np.nan), np.full(mesh.x.size, np.nan)]
+    for place, chain in zip(places, (top, toe), strict=True):
+        place[chain.vertex[:-1]] = chain.arc[:-1] / chain.arc[-1]
+    mixed = np.flatnonzero(~np.isnan(places[0][start]) & ~np.isnan(places[1][stop]))
+    a, b = start[mixed], stop[mixed]
+    order = np.lexsort([mesh.y[b], mesh.x[b], mesh.y[a], mesh.x[a]])
+    mixed, a, b = mixed[order], a[order], b[order]
+    apart = np.zeros(mixed.size)
+    for place, vertex in zip(places, (a, b), strict=True):
+        ahead = (place[vertex] - place[vertex[0]]) % 1.0
+        apart += np.minimum(ahead, 1.0 - ahead) * (1.0 + (vertex is a))
+    apart[a == a[0]] = -1.0
+    return int(mixed[0]), int(mixed[np.argmax(np.round(apart, 6))])
+
+
+def half_of(
+    mesh: Mesh, sides: tuple[int, int], seam: int, width: float, between: tuple[float, float]
+) -> Floats:
+    """Middle line of a ring slit open, between two stations on the top from the seam on.
+
+    Of radii that tie at a station, the last one counts, at either end.
+    """
+    n = mesh.x.size
+    a, b = int(mesh.tri[seam]), int(mesh.tri[mesh.twin[seam]])
+    slit = slit_open(mesh, seam)
+    ring = around(mesh, sides[0], a, n, False), around(mesh, sides[1], b, n + 1, True)
+    low, high = between
+    count = max(int(np.ceil((high - low) / width)), 8)
+    stations = np.linspace(low, high, count + 1)
+    layout = Layout(slit, *ring, NO_ENDS, PLANE, None, width)
+    drawn = Construction(centring="centred", ends=None, vertices=False, stations=stations)
+    radii, path = drawn.of(layout)
+    at_start = radii.station[path.radius[path.on_radii]] == 0
+    first = int(path.on_radii[at_start][-1]) if at_start.any() else 0
+    return path.points[first:]

@@ -1,0 +1,293 @@
+"""The ladder of a slope: directions of chords along its middle line, calm and nearly normal.
+
+Rungs follow each other at a quarter of the gap that the local width asks for. Their directions
+theta minimise
+
+    integral of (theta - n)^2 + (stiffness w)^4 (d2 theta / d tau2)^2  over the middle line,
+
+a compromise between being normal to the middle line (n), which halves the angle between the
+normals of top and toe, and turning steadily: the smoothing spline of n. Discretised it is a
+system of five diagonals with one solution. Steady bends it leaves as they are. A corner of angle A
+is turned by at most A / (2.8 stiffness w) per unit of length, and two widths from it next to
+nothing is left of it; what is much shorter than w is evened out.
+
+tau       arc length along the middle line
+w         length of the chord
+b         gap that the rule asks for: clamp(factor w, least, most)
+phase     integral of 1 / b over tau: one unit for each gap
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.chain import Chain
+from midrib.kernels.chords import Chord, Ground, ground_of, locate, shoot
+from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.paths import walk
+from midrib.kernels.tables import with_rows
+from midrib.types import Floats, Ints
+
+__all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at"]
+
+RUNGS = 4.0  # for each gap
+MOST_RUNGS = 2**24
+WHOLE_TURN = 2.0 * np.pi
+FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
+MOST_COPIES = 64
+TAU, X, Y, NORMAL, THETA, WIDTH, PHASE = range(7)
+
+
+class Spacing(NamedTuple):
+    """The rule for gaps, in ground units; factor 0 for gaps of ``least`` throughout."""
+
+    factor: float
+    least: float
+    most: float
+
+
+class Ladder(NamedTuple):
+    """Rungs along a middle line; of a closed one, the last is the first again."""
+
+    ground: Ground
+    line: Floats  # (m, 2) the middle line
+    arc: Floats  # (m,) stations of its vertices
+    rungs: Floats  # (n, 7) tau, x, y, normal, theta, width, phase
+    at: Ints  # (n, 2) triangle of the pivot, segment of the line
+
+
+class Strokes(NamedTuple):
+    """Whole strokes: pivots, what they aim at, and their chords."""
+
+    pivot: Floats  # (n, 6) tau, x, y, calm direction, chosen direction, gap
+    triangle: Ints  # (n,) of the pivot
+    chord: Floats  # (n, 7) s, t, top x, y, toe x, y, width
+    on: Ints  # (n, 2) the edges that the two ends lie on
+
+
+@njit(borrows=True)
+def gap_at(rule: Spacing, width: float) -> float:
+    """Gap that the rule asks for where strokes are so long."""
+    return min(max(rule.factor * width, rule.least), rule.most)
+
+
+@njit(borrows=True)
+def point_at(line: Floats, arc: Floats, k: int, tau: float) -> tuple[int, float, float]:
+    """Segment of a line on which a station lies, looked for from segment k on, and the point."""
+    while k + 2 < arc.size and arc[k + 1] < tau:
+        k += 1
+    while k > 0 and arc[k] > tau:
+        k -= 1
+    share = min(max((tau - arc[k]) / (arc[k + 1] - arc[k]), 0.0), 1.0)
+    x = line[k, 0] + share * (line[k + 1, 0] - line[k, 0])
+    y = line[k, 1] + share * (line[k + 1, 1] - line[k, 1])
+    return k, x, y
+
+
+@njit(borrows=True)
+def follow(
+    mesh: Mesh, line: Floats, arc: Floats, t: int, k: int, x: float, y: float, tau: float
+) -> tuple[int, int, float, float]:
+    """Walk along the line from (x, y) in triangle t on segment k to a station farther on.
+
+    A vertex that lies on the boundary up to rounding may end the walk in the triangle before it,
+    from where a chord is found as well.
+    """
+    while k + 2 < arc.size and arc[k + 1] < tau:
+        k += 1
+        t, _ = walk(mesh, t, -1, x, y, line[k, 0], line[k, 1])
+        x, y = line[k, 0], line[k, 1]
+    _, new_x, new_y = point_at(line, arc, k, tau)
+    t, _ = walk(mesh, t, -1, x, y, new_x, new_y)
+    return t, k, new_x, new_y
+
+
+@njit(borrows=True)
+def normal_at(line: Floats, arc: Floats, k: int, tau: float, half: float, is_closed: bool) -> float:
+    """Direction to the left of the line between the points ``half`` before and after a station."""
+    total = arc[arc.size - 1]
+    low, high = tau - half, tau + half
+    if is_closed:
+        low, high = low % total, high % total
+    else:
+        low, high = max(low, 0.0), min(high, total)
+    _, ax, ay = point_at(line, arc, k, low)
+    _, bx, by = point_at(line, arc, k, high)
+    return np.arctan2(bx - ax, ay - by)
+
+
+@njit()
+def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
+    """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n)."""
+    n = tau.size
+    matrix, theta = np.zeros((n, 3)), np.zeros(n)  # row i: columns i, i + 1, i + 2
+    for i in range(n - 1):
+        step = tau[i + 1] - tau[i]
+        for k in (i, i + 1):
+            matrix[k, 0] += step / 2.0
+            theta[k] += normal[k] * step / 2.0
+    for i in range(1, n - 1):
+        before, after = tau[i] - tau[i - 1], tau[i + 1] - tau[i]
+        mean = (before + after) / 2.0
+        first, last = 1.0 / (before * mean), 1.0 / (after * mean)
+        middle, weight = -(first + last), reach[i] ** 4 * mean
+        matrix[i - 1, 0] += weight * first * first
+        matrix[i - 1, 1] += weight * first * middle
+        matrix[i - 1, 2] += weight * first * last
+        matrix[i, 0] += weight * middle * middle
+        matrix[i, 1] += weight * middle * last
+        matrix[i + 1, 0] += weight * last * last
+    # Cholesky without roots: each row is subtracted from the two below it.
+    for i in range(n):
+        for k in range(1, min(3, n - i)):
+            share = matrix[i, k] / matrix[i, 0]
+            for column in range(k, 3):
+                matrix[i + k, column - k] -= share * matrix[i, column]
+            theta[i + k] -= share * theta[i]
+    for i in range(n - 1, -1, -1):
+        for k in range(1, min(3, n - i)):
+            theta[i] -= matrix[i, k] * theta[i + k]
+        theta[i] /= matrix[i, 0]
+    return theta
+
+
+@njit()
+def calm_down(rungs: Floats, n: int, total: float, stiffness: float, is_closed: bool) -> None:
+    """Write calm directions to the first n rungs.
+
+    A closed line is unrolled so far both ways that its ends make no difference to one turn.
+    """
+    copies, turn = 0, 0.0
+    if is_closed:
+        widest = 0.0
+        for i in range(n):
+            widest = max(widest, rungs[i, WIDTH])
+        copies = int(min(np.ceil(FAR * stiffness * widest / total), MOST_COPIES))
+        turn = np.round((rungs[n - 1, NORMAL] - rungs[0, NORMAL]) / WHOLE_TURN) * WHOLE_TURN
+    m = (2 * copies + 1) * n
+    tau, normal, reach = np.empty(m), np.empty(m), np.empty(m)
+    for i in range(m):
+        copy, k = i // n - copies, i % n
+        tau[i] = rungs[k, TAU] + copy * total
+        normal[i] = rungs[k, NORMAL] + copy * turn
+        reach[i] = stiffness * rungs[k, WIDTH]
+    theta = spline(tau, normal, reach)
+    for i in range(n):
+        rungs[i, THETA] = theta[copies * n + i]
+
+
+@njit(entry=True)
+def build_ladder(
+    mesh: Mesh, top: Chain, toe: Chain, line: Floats, rule: Spacing, stiffness: float
+) -> Ladder:
+    """Build the ladder of a slope.
+
+    Parameters
+    ----------
+    mesh : the slope
+    top, toe : its edges, the top with the area on its left, the toe beside it
+    line : (m, 2) the middle line beside them, closed if its last point is its first
+    rule : how wide gaps are, in ground units
+    stiffness : lengths of the chord over which directions are evened out
+
+    Returns
+    -------
+    Ladder
+        Of n rungs in O(n + m) steps through triangles, for a slope that is long and not wide.
+    """
+    ground = ground_of(mesh, top, toe)
+    m = line.shape[0]
+    arc = np.zeros(m)
+    for i in range(1, m):
+        arc[i] = arc[i - 1] + length(line[i, 0] - line[i - 1, 0], line[i, 1] - line[i - 1, 1])
+    total = arc[m - 1]
+    is_closed = line[0, 0] == line[m - 1, 0] and line[0, 1] == line[m - 1, 1]
+    rungs, at = np.empty((256, 7)), np.empty((256, 2), np.intp)
+    # 1. Rungs at right angles to the line, as far apart as the last one is long.
+    tau, k, x, y = 0.0, 0, line[0, 0], line[0, 1]
+    t = locate(mesh, x, y)
+    n, gap = 0, rule.least
+    while n < MOST_RUNGS:
+        if n + 1 >= rungs.shape[0]:
+            rungs, at = with_rows(rungs, 2 * n + 2), with_rows(at, 2 * n + 2)
+        normal = normal_at(line, arc, k, tau, gap / 2.0, is_closed)
+        chord = shoot(ground, t, x, y, normal)
+        gap = gap_at(rule, chord.width)
+        if n > 0:
+            normal += WHOLE_TURN * np.round((rungs[n - 1, NORMAL] - normal) / WHOLE_TURN)
+        rungs[n, TAU], rungs[n, X], rungs[n, Y] = tau, x, y
+        rungs[n, NORMAL], rungs[n, WIDTH] = normal, chord.width
+        at[n, 0], at[n, 1] = t, k
+        n += 1
+        if tau == total:
+            break
+        tau += gap / RUNGS
+        if tau > total - gap / (2.0 * RUNGS):
+            tau = total
+        if tau == total and is_closed:
+            break
+        t, k, x, y = follow(mesh, line, arc, t, k, x, y, tau)
+    # 2. Calm directions; the closing rung is the first one after whole turns.
+    calm_down(rungs, n, total, stiffness, is_closed)
+    if is_closed:
+        for column in range(7):
+            rungs[n, column] = rungs[0, column]
+        turn = np.round((rungs[n - 1, NORMAL] - rungs[0, NORMAL]) / WHOLE_TURN) * WHOLE_TURN
+        rungs[n, TAU], rungs[n, THETA] = total, rungs[0, THETA] + turn
+        rungs[n, NORMAL] = rungs[0, NORMAL] + turn
+        at[n, 0], at[n, 1] = at[0, 0], m - 2
+        n += 1
+    # 3. Phases, by the chords in these directions.
+    before = 0.0
+    for i in range(n):
+        chord = shoot(ground, at[i, 0], rungs[i, X], rungs[i, Y], rungs[i, THETA])
+        rungs[i, WIDTH] = chord.width
+        density = 1.0 / gap_at(rule, chord.width)
+        rungs[i, PHASE] = 0.0
+        if i > 0:
+            step = rungs[i, TAU] - rungs[i - 1, TAU]
+            rungs[i, PHASE] = rungs[i - 1, PHASE] + (before + density) / 2.0 * step
+        before = density
+    return Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
+
+
+@njit(borrows=True)
+def write_chord(strokes: Strokes, i: int, chord: Chord) -> None:
+    """Write a chord to a row."""
+    row = strokes.chord
+    row[i, 0], row[i, 1] = chord.s, chord.t
+    row[i, 2], row[i, 3], row[i, 4], row[i, 5] = chord.top_x, chord.top_y, chord.toe_x, chord.toe_y
+    row[i, 6] = chord.width
+    strokes.on[i, 0], strokes.on[i, 1] = chord.top_on, chord.toe_on
+
+
+@njit(entry=True)
+def draw_strokes(ladder: Ladder, phases: Floats, rule: Spacing) -> Strokes:
+    """Draw whole strokes at phases, in increasing order, by the ladder's directions; O(n).
+
+    An end that lies on the wrong edge is for ``mend`` to see to.
+    """
+    rungs, at, line, arc = ladder.rungs, ladder.at, ladder.line, ladder.arc
+    n = phases.size
+    strokes = Strokes(
+        np.empty((n, 6)), np.empty(n, np.intp), np.empty((n, 7)), np.empty((n, 2), np.intp)
+    )
+    j = 0
+    for i in range(n):
+        while j + 2 < rungs.shape[0] and rungs[j + 1, PHASE] < phases[i]:
+            j += 1
+        share = (phases[i] - rungs[j, PHASE]) / (rungs[j + 1, PHASE] - rungs[j, PHASE])
+        tau = rungs[j, TAU] + share * (rungs[j + 1, TAU] - rungs[j, TAU])
+        t, _, x, y = follow(
+            ladder.ground.mesh, line, arc, at[j, 0], at[j, 1], rungs[j, X], rungs[j, Y], tau
+        )
+        theta = rungs[j, THETA] + share * (rungs[j + 1, THETA] - rungs[j, THETA])
+        chord = shoot(ladder.ground, t, x, y, theta)
+        strokes.pivot[i, 0], strokes.pivot[i, 1], strokes.pivot[i, 2] = tau, x, y
+        strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta
+        strokes.pivot[i, 5] = gap_at(rule, chord.width)
+        strokes.triangle[i] = t
+        write_chord(strokes, i, chord)
+    return strokes

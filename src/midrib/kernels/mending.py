@@ -1,0 +1,249 @@
+"""Mending: other directions for strokes that would miss an edge, cross, or end too near another.
+
+A stroke is in *trouble* if its chord does not lead from top to toe, or if it and the next one do
+not advance on both edges by a decent share of a gap. Each run of strokes in trouble, with some
+calm ones beside it, chooses anew from a fan of directions, by dynamic programming: the sequence of
+chords that advance on both edges and are, and stay, nearest to the calm directions. Then the fan is
+narrowed around the choice.
+
+          first                     last      calm strokes that stay
+            |   \\|/   \\|/   \\|/   |
+            o    o     o     o     o          pivots, each with a fan of chords
+
+Chords that advance on both edges do not cross (their ends do not interleave on the boundary), so
+a chosen sequence is a matching whatever its cost. Where there is none, strokes are left out.
+"""
+
+import numpy as np
+
+from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
+from midrib.kernels.jit import njit
+from midrib.kernels.ladder import Ladder, Strokes, write_chord
+from midrib.kernels.mesh import Mesh
+from midrib.kernels.paths import walk
+from midrib.kernels.predicates import orient
+from midrib.types import Bools, Floats
+
+__all__ = ["crosses", "mend"]
+
+REACH = 4  # calm strokes on either side that choose again too
+LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
+FOOT_COST = 20.0  # squared radians per squared gap
+OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
+SKIP = 8  # strokes left out in a row
+FAN = 15  # directions on either side, first of
+STEP = np.pi / 45.0  # 4 degrees each: 60 degrees either way; then 4 on either side
+NARROW, NARROWER = 4, 0.25  # of a quarter of the step before
+LEVELS = 3
+
+
+@njit(borrows=True)
+def advance(low: float, high: float, period: float) -> float:
+    """How far the second station is ahead of the first; round a closed edge the shorter way."""
+    ahead = high - low
+    return ahead - period * np.round(ahead / period) if period > 0.0 else ahead
+
+
+@njit(borrows=True)
+def leads_down(strokes: Strokes, i: int) -> bool:
+    """Whether a chord leads from top to toe."""
+    return strokes.on[i, 0] == ON_TOP and strokes.on[i, 1] == ON_TOE
+
+
+@njit(borrows=True)
+def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
+    """Whether two strokes after another are as they should be."""
+    if not (leads_down(strokes, i) and leads_down(strokes, i + 1)):
+        return False
+    gap = (strokes.pivot[i, 5] + strokes.pivot[i + 1, 5]) / 2.0
+    for edge in range(2):
+        ahead = advance(strokes.chord[i, edge], strokes.chord[i + 1, edge], periods[edge])
+        if not LEAST_FOOT * gap <= ahead <= MOST_FOOT * gap:
+            return False
+    return True
+
+
+@njit(borrows=True)
+def cost_of_step(
+    strokes: Strokes, i: int, j: int, turn: float, ahead: float, beside: float, stiffness: float
+) -> float:
+    """Cost of strokes i and j after each other: of turning more than calm, and of feet too near or far."""
+    gap = (strokes.pivot[i, 5] + strokes.pivot[j, 5]) / 2.0
+    step = strokes.pivot[j, 0] - strokes.pivot[i, 0]
+    reach = stiffness * (strokes.chord[i, 6] + strokes.chord[j, 6]) / 2.0
+    cost = reach * reach / (step * gap) * turn * turn
+    missing = j - i - 1
+    for foot in (ahead / gap, beside / gap):
+        off = max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0)
+        cost += FOOT_COST * off * off
+    return cost + OMISSION * missing
+
+
+@njit()
+def choose(
+    ladder: Ladder,
+    strokes: Strokes,
+    kept: Bools,
+    first: int,
+    last: int,
+    fixed: tuple[bool, bool],
+    periods: Floats,
+    stiffness: float,
+    half: int,
+    step: float,
+) -> None:
+    """Choose directions for the strokes first..last of which each has 2 half + 1."""
+    n, m = last - first + 1, 2 * half + 1
+    theta, foot = np.empty((n, m)), np.full((n, m, 2), np.nan)
+    cost, came = np.full((n, m), np.inf), np.full((n, m), -1, np.intp)
+    # 1. The fans.
+    for k in range(n):
+        i = first + k
+        is_fixed = (k == 0 and fixed[0]) or (k == n - 1 and fixed[1])
+        if not kept[i]:
+            continue
+        for c in range(half, half + 1) if is_fixed else range(m):
+            theta[k, c] = strokes.pivot[i, 4] + (c - half) * step
+            chord = shoot(
+                ladder.ground,
+                strokes.triangle[i],
+                strokes.pivot[i, 1],
+                strokes.pivot[i, 2],
+                theta[k, c],
+            )
+            if chord.top_on == ON_TOP and chord.toe_on == ON_TOE:
+                foot[k, c, 0], foot[k, c, 1] = chord.s, chord.t
+    # 2. The cheapest way to each chord; it may begin with strokes left out.
+    for k in range(n):
+        i = first + k
+        for c in range(m):
+            if np.isnan(foot[k, c, 0]):
+                continue
+            tilt = theta[k, c] - strokes.pivot[i, 3]
+            if k == 0 or not fixed[0]:
+                cost[k, c] = OMISSION * k + tilt * tilt
+            for before in range(max(k - 1 - SKIP, 0), k):
+                for d in range(m):
+                    if np.isinf(cost[before, d]):
+                        continue
+                    ahead = advance(foot[before, d, 0], foot[k, c, 0], periods[0])
+                    beside = advance(foot[before, d, 1], foot[k, c, 1], periods[1])
+                    if ahead <= 0.0 or beside <= 0.0:
+                        continue
+                    turn = tilt - (theta[before, d] - strokes.pivot[first + before, 3])
+                    way = (
+                        cost[before, d]
+                        + tilt * tilt
+                        + cost_of_step(strokes, first + before, i, turn, ahead, beside, stiffness)
+                    )
+                    if way < cost[k, c]:
+                        cost[k, c], came[k, c] = way, before * m + d
+    # 3. The cheapest of all, from its end back; what it passes over is left out.
+    best, at = np.inf, -1
+    for k in range(n):
+        for c in range(m):
+            total = cost[k, c] + OMISSION * (n - 1 - k)
+            if total < best and (k == n - 1 or not fixed[1]):
+                best, at = total, k * m + c
+    for k in range(n):
+        is_fixed = (k == 0 and fixed[0]) or (k == n - 1 and fixed[1])
+        kept[first + k] = kept[first + k] and is_fixed
+    while at >= 0:
+        i, k, c = first + at // m, at // m, at % m
+        kept[i] = True
+        strokes.pivot[i, 4] = theta[k, c]
+        write_chord(
+            strokes,
+            i,
+            shoot(
+                ladder.ground,
+                strokes.triangle[i],
+                strokes.pivot[i, 1],
+                strokes.pivot[i, 2],
+                theta[k, c],
+            ),
+        )
+        at = came[k, c]
+
+
+@njit(borrows=True)
+def crosses(chord: Floats, i: int, j: int) -> bool:
+    """Whether the segments of two chords have a point in common, by exact signs."""
+    ax, ay, bx, by = chord[i, 2], chord[i, 3], chord[i, 4], chord[i, 5]
+    cx, cy, dx, dy = chord[j, 2], chord[j, 3], chord[j, 4], chord[j, 5]
+    c, d = orient(ax, ay, bx, by, cx, cy), orient(ax, ay, bx, by, dx, dy)
+    a, b = orient(cx, cy, dx, dy, ax, ay), orient(cx, cy, dx, dy, bx, by)
+    if a == 0.0 and b == 0.0:  # on one line
+        along_x, along_y = bx - ax, by - ay
+        low = (cx - ax) * along_x + (cy - ay) * along_y
+        high = (dx - ax) * along_x + (dy - ay) * along_y
+        whole = along_x * along_x + along_y * along_y
+        return not (max(low, high) < 0.0 or min(low, high) > whole)
+    return (c <= 0.0 <= d or d <= 0.0 <= c) and (a <= 0.0 <= b or b <= 0.0 <= a)
+
+
+@njit(borrows=True)
+def is_inside(mesh: Mesh, strokes: Strokes, i: int) -> bool:
+    """Whether a whole stroke lies in the area, walked anew from end to end with exact signs."""
+    x, y = strokes.pivot[i, 1], strokes.pivot[i, 2]
+    row = strokes.chord
+    t, _ = walk(mesh, strokes.triangle[i], -1, x, y, row[i, 2], row[i, 3])
+    _, obstacle = walk(mesh, t, -1, row[i, 2], row[i, 3], row[i, 4], row[i, 5])
+    return obstacle == -1
+
+
+@njit(entry=True)
+def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) -> Bools:
+    """Mend strokes in place.
+
+    Parameters
+    ----------
+    ladder : what they were drawn on
+    strokes : in order along the middle line
+    periods : (2,) lengths of closed edges, 0 of open ones; the last stroke is then followed by the
+        first, which must be calm
+    stiffness : as for the ladder
+
+    Returns
+    -------
+    (n,) bool
+        Whether each stroke stays; those that do lead from top to toe, inside, and do not cross.
+    """
+    n = strokes.triangle.size
+    kept = np.ones(n, np.bool_)
+    # 1. Runs of trouble.
+    i = 0
+    while i < n:
+        is_good = leads_down(strokes, i) and (i == n - 1 or is_calm(strokes, i, periods))
+        if is_good:
+            i += 1
+            continue
+        first = max(i - REACH, 0)
+        last, calm = i, 0
+        while last < n - 1 and calm < 2 * REACH:
+            last += 1
+            calm = calm + 1 if last < n - 1 and is_calm(strokes, last, periods) else 0
+        last = max(last - REACH, i) if calm >= 2 * REACH else n - 1
+        is_ring = periods[0] > 0.0
+        fixed = (first > 0 or is_ring, last < n - 1)
+        half, step = FAN, STEP
+        for _ in range(LEVELS):
+            choose(ladder, strokes, kept, first, last, fixed, periods, stiffness, half, step)
+            half, step = NARROW, step * NARROWER
+        i = last + 1
+    # 2. Rounding, and what could not be mended.
+    before = -1
+    for i in range(n):
+        if not kept[i]:
+            continue
+        kept[i] = leads_down(strokes, i) and is_inside(ladder.ground.mesh, strokes, i)
+        if kept[i] and before >= 0:
+            kept[i] = not crosses(strokes.chord, before, i)
+        if kept[i]:
+            before = i
+    if periods[0] > 0.0 and before > 0:
+        for i in range(n):
+            if kept[i]:
+                kept[before] = not crosses(strokes.chord, before, i)
+                break
+    return kept
