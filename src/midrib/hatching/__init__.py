@@ -1,0 +1,1 @@
+"""Hatching: the strokes that show on a map which way a slope falls."""
