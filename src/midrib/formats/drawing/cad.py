@@ -30,7 +30,7 @@ UNITS = {1.0: 6, 0.3048: 2, 1200.0 / 3937.0: 21, 0.001: 4, 0.01: 5, 1000.0: 7}  
 FORBIDDEN = re.compile(r'[<>/\\":;?*|=`,]')  # in names of layers and blocks
 BLACK, RED = 7, 1  # colour 7 is black on white and white on black
 TEXT, MARGIN = 2.0, 10.0  # millimetres: height of notes, margin of the layout
-DASHES = ("DASHED", "DASHED2", "DASHEDX2")  # LibreCAD draws no line types by other names
+DASHES = ("DASHEDTINY", "DASHED2", "DASHED")  # LibreCAD draws no line types by other names
 STRING, INTEGER = 1000, 1071  # group codes of extended data
 
 

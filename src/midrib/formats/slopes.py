@@ -1,0 +1,79 @@
+"""Slopes of any register: finds out what a file is and has it read."""
+
+from pathlib import Path
+
+from midrib.errors import ParameterError
+from midrib.formats import bdot500, bgt, gml
+from midrib.formats.cad import read_cad
+from midrib.formats.layers import Hints, read_layer
+from midrib.hatching.slope import Slope, SlopeProblem
+
+__all__ = ["Slope", "SlopeProblem", "read_slopes"]
+
+XML, DRAWING = (".gml", ".xml"), ".dxf"
+
+
+def read_slopes(
+    path: str | Path,
+    *,
+    layer: str | None = None,
+    top: str | None = None,
+    toe: str | None = None,
+    start: str | None = None,
+    end: str | None = None,
+    history: bool = False,
+) -> tuple[list[Slope], list[SlopeProblem]]:
+    """Read the slopes of a register: areas with their tops and toes.
+
+    Finds out what the file is: BDOT500 of the models of 2015 and 2021 (GML), BGT (CityGML), a
+    drawing (DXF), or any vector layer with areas and something that tells where their tops are.
+
+    Parameters
+    ----------
+    path : str or Path
+    layer : str, optional
+        Layer of areas; needed if several could be meant.
+    top : str, optional
+        Lines along the tops: ``LAYER``, matched by place, ``LAYER:ID``, matched by a field that
+        both layers have, or ``FIELD`` with WKT. Of a drawing: its layer of tops.
+    toe : str, optional
+        Lines along the toes, where there are no areas: a layer, as ``top`` is then.
+    start, end : str, optional
+        Where the tops start and end: two fields ``X,Y`` or a layer of points ``LAYER:ID``.
+    history : bool, default False
+        Whether to read objects that the register says have ended.
+
+    Returns
+    -------
+    slopes : list of Slope
+        In the order of the file, one for each side that has a top.
+    problems : list of SlopeProblem
+        What could not be read, and what is doubtful about some of the slopes.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be read, or nothing tells where the tops are.
+    MissingDependencyError
+        If it is a drawing and ezdxf is not installed.
+
+    Notes
+    -----
+    Start and end need not be vertices: a vertex within a tenth of the mean width is taken, else the
+    nearest place of the boundary if that is as near. Both are listed as problems. A height of 0 is
+    taken for unknown. Heights are on an edge if they are within a 100th of the mean width of it.
+    """
+    path = Path(path)
+    if not path.exists():
+        msg = f"IN {str(path)!r} does not exist"
+        raise ParameterError(msg)
+    if path.suffix.lower() == DRAWING:
+        return read_cad(path, top, toe)
+    hints = Hints(layer, top, toe, start, end)
+    if path.suffix.lower() in XML and hints == Hints():
+        spaces = " ".join(gml.namespaces(path))
+        if bdot500.DATABASE in spaces:
+            return bdot500.read_bdot500(path, history=history)
+        if bgt.MODEL in spaces:
+            return bgt.read_bgt(path, history=history)
+    return read_layer(path, hints)
