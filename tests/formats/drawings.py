@@ -2,6 +2,7 @@
 
 from typing import Any
 
+import numpy as np
 import shapely
 from shapely import LineString
 from shapely.affinity import translate
@@ -13,15 +14,19 @@ from midrib.hatching.symbols import symbols
 from tests.hatching.standin import Chords, Sides, mound, rectangle
 
 EAST, NORTH = 6481500.0, 5616900.0
-IDENTIFIER = {"lokalnyId": "c9b9", "przestrzenNazw": "PL.PZGiK.1.BDOT", "wersjaId": "2022"}
+IDENTIFIER: dict[str, object] = {
+    "lokalnyId": "c9b9",
+    "przestrzenNazw": "PL.PZGiK.1.BDOT",
+    "wersjaId": "2022",
+}
 
 
 def moved(hatching: Chords, x: float, y: float) -> Chords:
     """Chords in another place."""
     return hatching._replace(
         strokes=[translate(stroke, x, y) for stroke in hatching.strokes],
-        on_top=hatching.on_top + [x, y],
-        on_toe=hatching.on_toe + [x, y],
+        on_top=hatching.on_top + np.array([x, y]),
+        on_toe=hatching.on_toe + np.array([x, y]),
         strip=Sides(*(translate(part, x, y) for part in hatching.strip)),
     )
 

@@ -9,7 +9,7 @@ import midrib
 from midrib import Standard, standard, standards
 from midrib.errors import ParameterError
 from midrib.hatching.keys import CONFIDENCES, RULES
-from midrib.hatching.standards import FOLDER, choose
+from midrib.hatching.standards import FOLDER, standard_for, standards_named
 
 OWN = 'title = "Mine"\nsource = "me"\nconfidence = "read"\n'
 WHOLE = OWN + 'kinds = ["slope"]\nsymbol = "line"\nstroke_width = 0.2\nspacing = 1.5\n'
@@ -106,13 +106,14 @@ def test_spacing_and_factor_replace_each_other() -> None:
 
 
 def test_a_family_has_one_for_each_kind() -> None:
-    assert choose("pl-2015", "slope-reinforced").code == "BUBZ03"
-    assert choose("pl-2015", "embankment").name == "pl-2015-dyke"
-    assert choose("pl-2021", "wall").symbol == "ticks"
-    with pytest.raises(ParameterError, match="'pl-2021' has no symbol for a 'conveyor', it has"):
-        choose("pl-2021", "conveyor")
-    with pytest.raises(ParameterError, match="it has some for none"):
-        choose("fr", "dyke")
+    codes = {"slope-reinforced": "BUBZ03", "embankment": "BUBZ01", "slope-unreinforced": "BUBZ02"}
+    found = {kind: standard_for("pl-2015", kind) for kind in codes}
+    assert {kind: known.code for kind, known in found.items() if known is not None} == codes
+    assert standard_for("pl-2021", "conveyor") is None
+    assert standard_for("iof-104", "wall") is None
+    assert len(standards_named("pl-2021")) == 4
+    with pytest.raises(ParameterError, match="standard is 'fr', expected one of arcgis-like"):
+        standards_named("fr")
 
 
 def test_a_file_of_ones_own_is_named_as_the_file(tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ import typer
 
 from midrib import __version__
 from midrib.cli.collapse import collapse
+from midrib.cli.hatch import hatch
 from midrib.cli.profile import profile
 
 __all__ = ["app"]
@@ -40,6 +41,18 @@ app.command(
     epilog="Examples:\n\nmidrib profile rivers.gpkg widths.csv --spacing 10m --id name\n\n"
     "midrib profile rivers.gpkg stations.gpkg --figure widths.svg",
 )(profile)
+app.command(
+    help="Hatch slopes at map scale: strokes from top to toe that never cross, as a standard has "
+    "them; and draw walls, stairs and conveyors.\n\n"
+    "Layers: strokes, symbols (filled), outlines, problems. Columns of strokes: area (identifier "
+    "in the register), kind, standard, stroke (number along the top), is_long, width (of the "
+    "slope there) and length. Slopes that are refused are listed and in the layer, or file, "
+    "problems, with the reason.\n\n"
+    "Exit code 0: done; 1: some slopes refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib hatch bdot500.gml map.gpkg --standard pl-2015 --scale 500\n\n"
+    "midrib hatch bgt.gml map.pdf --standard de-general --scale 1000 --paper A3\n\n"
+    "midrib hatch slopes.gpkg map.dxf --top crest:slope_id --symbol wedge",
+)(hatch)
 
 
 def show_version(is_asked: bool) -> None:

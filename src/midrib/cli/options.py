@@ -18,31 +18,61 @@ __all__ = [
     "ChannelOption",
     "Connect",
     "Count",
+    "DrawingOut",
+    "DrawingRule",
     "EndClearance",
     "EndRule",
+    "EndStrokes",
     "EndsOption",
+    "Factor",
+    "First",
+    "From",
+    "Gap",
+    "History",
     "Holes",
     "HolesOption",
     "Identifier",
+    "LargestGap",
     "Layer",
+    "LeastGap",
+    "LeastLength",
+    "Letter",
     "LineFigure",
     "LinesOut",
     "Main",
     "Mean",
     "MeanOption",
     "Method",
+    "Offset",
     "OutLayer",
     "Overwrite",
+    "PaperSize",
+    "Pattern",
     "Percent",
     "Quiet",
+    "RuleOption",
+    "Scale",
+    "ShortRatio",
     "Simplify",
+    "SlopeLayer",
+    "SlopeSource",
     "Smooth",
     "Source",
     "Spacing",
+    "StandardName",
+    "StartSide",
     "StationSpacing",
+    "Stiffness",
+    "StrokeWidth",
+    "Symbol",
+    "SymbolWidth",
     "TableFigure",
     "TableOut",
+    "Toe",
     "Tolerance",
+    "Top",
+    "TopEnd",
+    "TopStart",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -94,6 +124,29 @@ class WidthPlace(StrEnum):
 
     columns = "columns"
     m = "m"
+
+
+class StartSide(StrEnum):
+    """Where a pattern of strokes starts."""
+
+    left = "left"
+    right = "right"
+    first = "first"
+    last = "last"
+
+
+class Letter(StrEnum):
+    """Lengths of strokes."""
+
+    long = "long"
+    short = "short"
+
+
+class DrawingRule(StrEnum):
+    """How strokes are found."""
+
+    matching = "matching"
+    paper = "paper"
 
 
 argument = partial(typer.Argument, show_default=False)
@@ -259,8 +312,133 @@ Smooth: TypeAlias = Annotated[
     ),
 ]
 
+# Which slopes
+
+of_slopes = partial(typer.Option, rich_help_panel="Which slopes")
+of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, lengths in mm on paper")
+
+SlopeSource: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="IN",
+        help="Register of slopes: BDOT500 or BGT as .gml, a .dxf with tops and toes, or a vector "
+        "file with areas and something that tells their tops.",
+    ),
+]
+DrawingOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the drawing; its ending chooses the format: .gpkg with a style for QGIS, "
+        ".dxf, .svg and .pdf to scale, .gml for KR_ObiektKarto of BDOT500, .geojson .shp …",
+    ),
+]
+SlopeLayer: TypeAlias = Annotated[
+    str | None, of_slopes(metavar="NAME", help="Layer of IN; needed if several could be meant.")
+]
+Top: TypeAlias = Annotated[
+    str | None,
+    of_slopes(
+        metavar="LAYER[:ID]|FIELD",
+        help="Lines along the tops: a layer of IN, matched by place or by a common field ID; or "
+        "a field with WKT. Of a .dxf: its layer of tops.",
+    ),
+]
+Toe: TypeAlias = Annotated[
+    str | None,
+    of_slopes(metavar="LAYER", help="Lines along the toes, where there are no areas."),
+]
+TopStart: TypeAlias = Annotated[
+    str | None,
+    of_slopes(metavar="X,Y|LAYER:ID", help="Where tops start: two fields, or a layer of points."),
+]
+TopEnd: TypeAlias = Annotated[
+    str | None, of_slopes(metavar="X,Y|LAYER:ID", help="Where tops end, likewise.")
+]
+History: TypeAlias = Annotated[
+    bool, of_slopes("--history", metavar="", help="Draw objects too that have ended.")
+]
+
+# How strokes are made
+
+StandardName: TypeAlias = Annotated[
+    str,
+    of_strokes(
+        metavar="NAME|FILE",
+        help="One of [bold]midrib standards[/], the beginning of some (pl-2015, each object by "
+        "the one made for its kind), or a .toml file of your own.",
+    ),
+]
+Scale: TypeAlias = Annotated[float, of_strokes(metavar="N", help="Of the map: 500 for 1:500.")]
+Symbol: TypeAlias = Annotated[
+    str | None,
+    of_strokes(
+        metavar="NAME",
+        help="line, wedge, triangle, filled-triangle, tapered, y, tadpole; the standard's unless "
+        "you say otherwise, as all of these:",
+    ),
+]
+SymbolWidth: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="MM", help="Width of wedges, triangles, forks, heads.")
+]
+StrokeWidth: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="MM", help="Width of the line of strokes.")
+]
+Factor: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="N", help="Gap between strokes over their length.")
+]
+Gap: TypeAlias = Annotated[
+    float | None, of_strokes("--spacing", metavar="MM", help="Or: a fixed gap.")
+]
+LeastGap: TypeAlias = Annotated[
+    float | None, of_strokes("--min-spacing", metavar="MM", help="Least gap.")
+]
+LargestGap: TypeAlias = Annotated[
+    float | None, of_strokes("--max-spacing", metavar="MM", help="Largest gap.")
+]
+Pattern: TypeAlias = Annotated[
+    str | None, of_strokes(metavar="LS", help="Long and short in turn: LS, LSS, LSSL, L.")
+]
+ShortRatio: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="N", help="Length of a short stroke over that of a long one.")
+]
+LeastLength: TypeAlias = Annotated[
+    float | None, of_strokes("--min-length", metavar="MM", help="Shortest whole stroke.")
+]
+From: TypeAlias = Annotated[
+    StartSide,
+    of_strokes(
+        "--from", metavar="SIDE", help="Where the pattern starts: left, right, first, last."
+    ),
+]
+Offset: TypeAlias = Annotated[
+    float, of_strokes(metavar="N", help="Where the first stroke falls, in gaps from the start.")
+]
+First: TypeAlias = Annotated[
+    Letter | None, of_strokes(metavar="long|short", help="What the first stroke is.")
+]
+EndStrokes: TypeAlias = Annotated[
+    bool,
+    of_strokes("--end-strokes", metavar="", help="Strokes on the straight ends of slopes too."),
+]
+Stiffness: TypeAlias = Annotated[
+    float | None,
+    of_strokes(metavar="N", help="More turns slower at corners, less is nearer to normals: 1.2."),
+]
+RuleOption: TypeAlias = Annotated[
+    DrawingRule, of_strokes("--rule", metavar="NAME", help="matching; paper, for comparison.")
+]
+
 # Output
 
+PaperSize: TypeAlias = Annotated[
+    str | None,
+    of_output(
+        "--paper",
+        metavar="A4…A0",
+        help="Size of a .svg or .pdf sheet; as large as it needs to be unless you say otherwise.",
+    ),
+]
 Width: TypeAlias = Annotated[
     WidthPlace,
     of_output(

@@ -22,7 +22,7 @@ from midrib.hatching.keys import RULES, STROKED, checked, is_length
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["Standard", "choose", "standard", "standards"]
+__all__ = ["Standard", "standard", "standard_for", "standards", "standards_named"]
 
 FOLDER = Path(__file__).with_name("standards")
 ENDING = ".toml"
@@ -223,21 +223,27 @@ def standard(name: "str | Path | Standard", **values: Any) -> Standard:
     return found.with_values(**values)
 
 
-def choose(family: str, kind: str) -> Standard:
-    """Return the standard of a family, ``"pl-2015"``, that is made for a kind of object.
+def standards_named(name: "str | Path | Standard") -> list[Standard]:
+    """Return the standard of a name, or all that begin with it: ``"pl-2015"`` for ``pl-2015-…``.
 
     Raises
     ------
     ParameterError
-        If the family has none for it.
+        If there is none.
     """
-    members = [known for name, known in presets().items() if name.startswith(f"{family}-")]
-    for member in members:
-        if kind in member.kinds:
-            return member
-    made_for = ", ".join(sorted({kind for member in members for kind in member.kinds}))
-    msg = f"standard {family!r} has no symbol for a {kind!r}, it has some for {made_for or 'none'}"
-    raise ParameterError(msg)
+    family = [known for key, known in presets().items() if key.startswith(f"{name}-")]
+    return family or [standard(name)]
+
+
+def standard_for(name: "str | Path | Standard", kind: str) -> Standard | None:
+    """Return that one of ``standards_named`` which is made for a kind of object, None if none is.
+
+    Examples
+    --------
+    >>> standard_for("pl-2015", "embankment").name
+    'pl-2015-dyke'
+    """
+    return next((known for known in standards_named(name) if kind in known.kinds), None)
 
 
 def read(path: Path, above: tuple[Path, ...] = ()) -> Standard:

@@ -17,8 +17,22 @@ if TYPE_CHECKING:
     from midrib.hatching.standards import Standard
     from midrib.types import Bools, Floats, Ints
 
-__all__ = ["AREAS", "EDGES", "LINES", "PROBLEMS", "Drawing", "Drawn", "Trouble", "layers_of"]
+__all__ = [
+    "AREAS",
+    "EDGES",
+    "LEFT_OUT",
+    "LINES",
+    "PROBLEMS",
+    "REFUSED",
+    "STROKE",
+    "Drawing",
+    "Drawn",
+    "Trouble",
+    "layers_of",
+]
 
+# Kinds of problems, beside those of readers: an object not drawn, not to be drawn, a stroke amiss.
+REFUSED, LEFT_OUT, STROKE = "refused", "left out", "stroke"
 LINES, AREAS, EDGES, PROBLEMS = "strokes", "symbols", "outlines", "problems"
 GEOMETRY = "geom"
 
@@ -41,6 +55,7 @@ class Trouble(NamedTuple):
     id: str
     reason: str
     where: "Point | None" = None
+    kind: str = REFUSED
 
 
 @dataclass
@@ -75,6 +90,11 @@ class Drawing:
         """Standards of the objects by name, in alphabetical order."""
         found = {drawn.symbols.standard.name: drawn.symbols.standard for drawn in self.objects}
         return dict(sorted(found.items()))
+
+    @property
+    def n_refused(self) -> int:
+        """Number of objects that should have been drawn and are not."""
+        return len({trouble.id for trouble in self.problems if trouble.kind == REFUSED})
 
     @property
     def bounds(self) -> "Floats":
@@ -154,6 +174,7 @@ def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
     """Rows of the layer of problems."""
     table = {
         "area": [trouble.id for trouble in drawing.problems],
+        "problem": [trouble.kind for trouble in drawing.problems],
         "reason": [trouble.reason for trouble in drawing.problems],
     }
     columns = {name: pa.array(values, type=pa.string()) for name, values in table.items()}

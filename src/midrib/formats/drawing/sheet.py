@@ -1,4 +1,11 @@
-"""Sheets: SVG and PDF in true millimetres, at the scale of the map."""
+"""Sheets: SVG and PDF in true millimetres, at the scale of the map; PDF of several pages if need be.
+
++-------------------+   margin around
+|  map, clipped     |
++-------------------+
+|  footer           |   scale, standards, number of the page, scale bar
++-------------------+
+"""
 
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -9,6 +16,7 @@ import shapely
 from midrib.errors import MissingDependencyError, ParameterError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from matplotlib.axes import Axes
@@ -20,30 +28,24 @@ if TYPE_CHECKING:
 __all__ = ["PAPERS", "check_sheet", "write_sheet"]
 
 INCH, POINT = 25.4, 25.4 / 72.0  # millimetres
-MARGIN, FOOTER = 10.0, 10.0
-ABOVE = np.array([0.0, FOOTER])
-SMALLEST = np.array([90.0, 50.0])  # a sheet that is as large as its map needs is no smaller
+MARGIN, FOOTER = 5.0, 10.0
+AROUND = np.array([2.0 * MARGIN, 2.0 * MARGIN + FOOTER])  # what a page has beside the map
+SMALLEST = np.array([90.0, 50.0])  # a page that is as large as its map needs is no smaller
 LARGEST = 5080.0  # PDF goes to 14,400 points
-PAPERS = {"A4": 210.0, "A3": 297.0, "A2": 420.0, "A1": 594.0, "A0": 841.0}  # shorter side, ISO 216
-HEIGHTS = {"A4": 297.0, "A3": 420.0, "A2": 594.0, "A1": 841.0, "A0": 1189.0}
+PAPERS = {"A4": (210, 297), "A3": (297, 420), "A2": (420, 594), "A1": (594, 841), "A0": (841, 1189)}
 TEXT, FONT, FINE = "#333333", 2.6, 0.25  # colour, height in millimetres; width of the scale bar
 PROBLEM, DOT = "#d73027", 2.0
-BAR = 0.25  # of the sheet's width, at the most
+BAR = 0.25  # of the page's width, at the most
+STYLE = {"lines.scale_dashes": False, "svg.hashsalt": "midrib", "pdf.fonttype": 42}
 
 
-class Sheet(NamedTuple):
-    """A sheet and its map: millimetres from the lower left corner."""
+class Page(NamedTuple):
+    """A page and the part of the map on it."""
 
-    figure: "Figure"
-    axes: "Axes"
-    size: "Floats"  # (2,) width and height
-    low: "Floats"  # (2,) map coordinates at the lower left corner
-    millimetre: float  # in map units
-
-    def place(self, geometry: Any) -> "Floats":
-        """Points of a geometry on the sheet, in millimetres."""
-        points: Floats = (shapely.get_coordinates(geometry) - self.low) / self.millimetre
-        return points
+    size: "Floats"  # (2,) width and height, millimetres
+    low: "Floats"  # (2,) map coordinates at the lower left corner of its map
+    high: "Floats"
+    name: str
 
 
 def check_sheet() -> None:
@@ -59,8 +61,13 @@ def check_sheet() -> None:
         raise MissingDependencyError(msg)
 
 
-def write_sheet(path: "Path", drawing: "Drawing", paper: str | None = None) -> None:
-    """Write a drawing as a sheet, as large as it needs to be or on paper of ISO 216.
+def write_sheet(path: "Path", drawing: "Drawing", paper: str | None = None) -> list[str]:
+    """Write a drawing as a sheet as large as it needs to be, or on pages of paper of ISO 216.
+
+    Returns
+    -------
+    list of str
+        How many pages there are, if there are several.
 
     Raises
     ------
@@ -69,115 +76,153 @@ def write_sheet(path: "Path", drawing: "Drawing", paper: str | None = None) -> N
     """
     check_sheet()
     from matplotlib import rc_context
+    from matplotlib.backends.backend_pdf import PdfPages
 
-    bounds = drawing.bounds
-    size = size_of(drawing, bounds, paper)
-    with rc_context({"lines.scale_dashes": False, "svg.hashsalt": "midrib", "pdf.fonttype": 42}):
-        sheet = blank(drawing, bounds, size)
-        for drawn in drawing.objects:
-            draw_object(sheet, drawn.symbols)
-        draw_problems(sheet, drawing)
-        draw_footer(sheet, drawing)
-        stamp = "Date" if path.suffix.lower() == ".svg" else "CreationDate"
-        sheet.figure.savefig(path, format=path.suffix.lower()[1:], metadata={stamp: None})
+    pages = pages_of(drawing, paper)
+    with rc_context(STYLE):
+        if path.suffix.lower() != ".pdf":
+            if len(pages) > 1:
+                msg = f"the drawing takes {len(pages)} pages of {paper}, expected OUT .pdf for them"
+                raise ParameterError(msg)
+            figure_of(drawing, pages[0]).savefig(path, format="svg", metadata={"Date": None})
+            return []
+        with PdfPages(path, metadata={"CreationDate": None}) as file:
+            for page in pages:
+                file.savefig(figure_of(drawing, page))
+    return [f"{len(pages)} pages of {paper}"] if len(pages) > 1 else []
 
 
-def size_of(drawing: "Drawing", bounds: "Floats", paper: str | None) -> "Floats":
-    """Width and height of the sheet in millimetres.
+def pages_of(drawing: "Drawing", paper: str | None) -> list[Page]:
+    """Divide the map into pages, from the upper left corner on; those with nothing are left out.
 
     Raises
     ------
     ParameterError
         If the drawing does not fit, or there is no such paper.
     """
-    needed = np.ptp(bounds, axis=0) / drawing.millimetre + 2.0 * MARGIN + ABOVE
-    text = f"{needed[0]:,.0f} by {needed[1]:,.0f} mm"
+    bounds = drawing.bounds
+    map_size = np.ptp(bounds, axis=0) / drawing.millimetre
     if paper is None:
-        if (needed > LARGEST).any():
-            msg = f"a sheet at 1:{drawing.scale:g} takes {text}, expected {LARGEST:,.0f} at most"
+        size = np.maximum(map_size + AROUND, SMALLEST)
+        if (size > LARGEST).any():
+            text = f"{size[0]:,.0f} by {size[1]:,.0f} mm"
+            msg = f"a sheet at 1:{drawing.scale:g} takes {text}, expected pages of a paper: A0"
             raise ParameterError(msg)
-        enough: Floats = np.maximum(needed, SMALLEST)
-        return enough
-    if paper not in PAPERS:
+        counts = np.ones(2, dtype=np.intp)
+    elif paper in PAPERS:
+        upright = np.array(PAPERS[paper], dtype=np.float64)
+        both = [
+            (upright, needed(map_size, upright)),
+            (upright[::-1], needed(map_size, upright[::-1])),
+        ]
+        size, counts = min(both, key=lambda way: way[1].prod())
+    else:
         msg = f"paper is {paper!r}, expected {', '.join(PAPERS)}"
         raise ParameterError(msg)
-    upright = np.array([PAPERS[paper], HEIGHTS[paper]])
-    for size in (upright, upright[::-1]):
-        if (needed <= size).all():
-            return size
-    msg = f"paper is {paper}, but a sheet at 1:{drawing.scale:g} takes {text}"
-    raise ParameterError(msg)
+    room = (size - AROUND) * drawing.millimetre
+    corner = bounds.mean(axis=0) + 0.5 * counts * room * [-1.0, 1.0]  # upper left
+    pages = []
+    for row in range(counts[1]):
+        for column in range(counts[0]):
+            low = corner + room * [column, -row - 1]
+            pages.append(Page(size, low, low + room, f"{row + 1}/{column + 1}"))
+    return [page for page in pages if len(pages) == 1 or any(drawn_on(drawing, page))] or pages[:1]
 
 
-def blank(drawing: "Drawing", bounds: "Floats", size: "Floats") -> Sheet:
-    """Sheet with nothing on it, the map in its middle above the footer."""
+def needed(map_size: "Floats", paper: "Floats") -> Any:
+    """Number of pages beside and below each other."""
+    return np.maximum(np.ceil(map_size / (paper - AROUND)), 1.0).astype(np.intp)
+
+
+def drawn_on(drawing: "Drawing", page: Page) -> "Iterator[Any]":
+    """Symbols of the objects that reach onto a page."""
+    box = shapely.box(*page.low, *page.high)
+    shapely.prepare(box)
+    for drawn in drawing.objects:
+        flat = drawn.symbols.flat()
+        if any(shapely.intersects(box, ink).any() for ink in (flat.edges, flat.lines, flat.areas)):
+            yield flat
+
+
+def figure_of(drawing: "Drawing", page: Page) -> "Figure":
+    """Draw a page."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=tuple(size / INCH), facecolor="white")
-    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    width, height = page.size
+    figure = Figure(figsize=(width / INCH, height / INCH), facecolor="white")
+    low = MARGIN + FOOTER
+    sides = (
+        MARGIN / width,
+        low / height,
+        1.0 - 2.0 * MARGIN / width,
+        1.0 - (MARGIN + low) / height,
+    )
+    axes = figure.add_axes(sides)
     axes.set_axis_off()
-    axes.set_xlim(0.0, size[0])
-    axes.set_ylim(0.0, size[1])
-    low = bounds.mean(axis=0) - 0.5 * (size + ABOVE) * drawing.millimetre
-    return Sheet(figure, axes, size, low, drawing.millimetre)
+    room = (page.high - page.low) / drawing.millimetre
+    axes.set_xlim(0.0, room[0])
+    axes.set_ylim(0.0, room[1])
+    for symbols in drawn_on(drawing, page):
+        draw_object(axes, symbols, page, drawing.millimetre)
+    draw_problems(axes, drawing, page)
+    footer = figure.add_axes((0.0, 0.0, 1.0, low / height))
+    footer.set_axis_off()
+    footer.set_xlim(0.0, width)
+    footer.set_ylim(0.0, low)
+    draw_footer(footer, drawing, page)
+    return figure
 
 
-def draw_object(sheet: Sheet, symbols: Any) -> None:
+def draw_object(axes: "Axes", symbols: Any, page: Page, millimetre: float) -> None:
     """Draw the symbols of an object."""
     from matplotlib.collections import LineCollection, PolyCollection
 
-    flat, known = symbols.flat(), symbols.standard
+    def placed(geometries: Any) -> "list[Floats]":
+        return [(shapely.get_coordinates(g) - page.low) / millimetre for g in geometries]
+
+    known = symbols.standard
     dashes = tuple(length / POINT for length in known.outline_dash)
     for lines, width, style in (
-        (flat.edges, known.outline_width, (0.0, dashes or None)),
-        (flat.lines, known.stroke_width, "solid"),
+        (symbols.edges, known.outline_width, (0.0, dashes or None)),
+        (symbols.lines, known.stroke_width, "solid"),
     ):
-        chains = [sheet.place(line) for line in lines]
-        sheet.axes.add_collection(
-            LineCollection(
-                chains,
-                colors=known.colour,
-                linewidths=width / POINT,
-                linestyles=[style],
-                capstyle="butt",
-                joinstyle="miter",
-            )
+        ends: dict[str, Any] = {"capstyle": "butt", "joinstyle": "miter", "linestyles": [style]}
+        axes.add_collection(
+            LineCollection(placed(lines), colors=known.colour, linewidths=width / POINT, **ends)
         )
-    areas = [sheet.place(area) for area in flat.areas]
-    sheet.axes.add_collection(PolyCollection(areas, facecolors=known.colour, edgecolors="none"))
+    areas = PolyCollection(placed(symbols.areas), facecolors=known.colour, edgecolors="none")
+    axes.add_collection(areas)
 
 
-def draw_problems(sheet: Sheet, drawing: "Drawing") -> None:
-    """Draw a dot where something is not drawn."""
+def draw_problems(axes: "Axes", drawing: "Drawing", page: Page) -> None:
+    """Draw a circle where something is not as it should be."""
     places = [trouble.where for trouble in drawing.problems if trouble.where is not None]
-    x, y = sheet.place(places).T if places else np.empty((2, 0))
-    size = DOT / POINT
-    sheet.axes.plot(x, y, ls="none", marker="o", ms=size, mfc="none", mec=PROBLEM, mew=0.5)
+    x, y = ((shapely.get_coordinates(places) - page.low) / drawing.millimetre).T
+    style: dict[str, Any] = {"ls": "none", "marker": "o", "mfc": "none", "mec": PROBLEM, "mew": 0.5}
+    axes.plot(x, y, ms=DOT / POINT, **style)
 
 
-def draw_footer(sheet: Sheet, drawing: "Drawing") -> None:
-    """Draw what the sheet is: scale, standards, a bar."""
+def draw_footer(axes: "Axes", drawing: "Drawing", page: Page) -> None:
+    """Draw what the page is: scale, standards, number, a bar."""
     style: dict[str, Any] = {"fontsize": FONT / POINT, "color": TEXT, "va": "center"}
-    middle = 0.5 * (MARGIN + FOOTER)
-    length = round_length(BAR * sheet.size[0] * sheet.millimetre * drawing.metres_per_unit)
-    right = sheet.size[0] - MARGIN
-    left = right - length / drawing.metres_per_unit / sheet.millimetre
-    x, tick = np.array([left, left, right, right]), 1.0
-    y = middle + np.array([tick, 0.0, 0.0, tick])
-    sheet.axes.plot(x, y, color=TEXT, lw=FINE / POINT, solid_joinstyle="miter")
+    middle, right = 0.5 * (MARGIN + FOOTER), page.size[0] - MARGIN
+    unit = drawing.millimetre * drawing.metres_per_unit  # metres in a millimetre
+    length = round_length(BAR * page.size[0] * unit)
+    left = right - length / unit
+    x, y = np.array([left, left, right, right]), middle + np.array([1.0, 0.0, 0.0, 1.0])
+    axes.plot(x, y, color=TEXT, lw=FINE / POINT, solid_joinstyle="miter")
     label = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
-    sheet.axes.text(0.5 * (left + right), middle - 2.0, label, ha="center", **style)
+    axes.text(0.5 * (left + right), middle - 2.5, label, ha="center", **style)
     names = ", ".join(drawing.standards)
-    text = sheet.axes.text(MARGIN, middle, f"1:{drawing.scale:,g}   {names}", ha="left", **style)
+    told = (
+        f"1:{drawing.scale:,g}   {page.name}   {names}"
+        if page.name != "1/1"
+        else f"1:{drawing.scale:,g}   {names}"
+    )
+    text = axes.text(MARGIN, middle, told, ha="left", **style)
     room = (left - 2.0 * MARGIN) / POINT
-    shrink(sheet, text, room)
-
-
-def shrink(sheet: Sheet, text: Any, room: float) -> None:
-    """Make a text smaller if it is wider than its room, in points."""
-    width = text.get_window_extent().width * 72.0 / sheet.figure.dpi
-    if width > room:
-        text.set_fontsize(text.get_fontsize() * room / width)
+    width = text.get_window_extent().width * 72.0 / axes.figure.dpi
+    text.set_fontsize(text.get_fontsize() * min(1.0, room / width))
 
 
 def round_length(length: float) -> float:

@@ -94,7 +94,7 @@ def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = Non
     Returns
     -------
     list of str
-        What the format could not keep.
+        What the format could not keep; how many pages a sheet takes, if several.
 
     Raises
     ------
@@ -108,13 +108,10 @@ def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = Non
     with staged(path.parent, stale=places[1:]) as stage:
         new = stage / path.name
         if ending in SHEETS:
-            write_sheet(new, drawing, paper)
-        elif ending == CAD:
-            write_dxf(new, drawing)
-        elif ending == CARTOGRAPHIC:
-            write_cartographic(new, drawing)
-        else:
+            return write_sheet(new, drawing, paper)
+        if ending not in (CAD, CARTOGRAPHIC):
             return write_layers(new, drawing)
+        (write_dxf if ending == CAD else write_cartographic)(new, drawing)
     return []
 
 

@@ -1,0 +1,121 @@
+"""The command ``midrib hatch``."""
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from midrib.cli import options as cli
+from midrib.cli.options import DrawingRule, StartSide
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from midrib.cli.report import Report
+    from midrib.formats.drawing.content import Drawing
+
+__all__ = ["hatch"]
+
+MOST_LISTED = 10  # problems told on the terminal
+
+
+def hatch(
+    source: cli.SlopeSource,
+    out: cli.DrawingOut,
+    standard: cli.StandardName = "pl-2021",
+    scale: cli.Scale = 500.0,
+    symbol: cli.Symbol = None,
+    symbol_width: cli.SymbolWidth = None,
+    stroke_width: cli.StrokeWidth = None,
+    factor: cli.Factor = None,
+    spacing: cli.Gap = None,
+    min_spacing: cli.LeastGap = None,
+    max_spacing: cli.LargestGap = None,
+    pattern: cli.Pattern = None,
+    short_ratio: cli.ShortRatio = None,
+    min_length: cli.LeastLength = None,
+    start: cli.From = StartSide.left,
+    offset: cli.Offset = 1.0,
+    first: cli.First = None,
+    end_strokes: cli.EndStrokes = False,
+    stiffness: cli.Stiffness = None,
+    rule: cli.RuleOption = DrawingRule.matching,
+    layer: cli.SlopeLayer = None,
+    top: cli.Top = None,
+    toe: cli.Toe = None,
+    top_start: cli.TopStart = None,
+    top_end: cli.TopEnd = None,
+    history: cli.History = False,
+    paper: cli.PaperSize = None,
+    overwrite: cli.Overwrite = False,
+    quiet: cli.Quiet = False,
+) -> None:
+    """Hatch slopes at map scale, and draw walls, stairs and conveyors."""
+    from midrib.cli.report import Report
+    from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
+    from midrib.formats.drawing.write import check_places, write_drawing
+    from midrib.formats.slopes import read_slopes
+
+    values = given(
+        symbol=symbol,
+        symbol_width=symbol_width,
+        stroke_width=stroke_width,
+        factor=factor,
+        spacing=spacing,
+        min_spacing=min_spacing,
+        max_spacing=max_spacing,
+        pattern=pattern,
+        short_ratio=short_ratio,
+    )
+    options = given(
+        min_length=min_length, first=first and first.value, stiffness=stiffness, offset=offset
+    )
+    options |= {"start": start.value, "end_strokes": end_strokes, "rule": rule.value}
+    check_places(out, [source], overwrite=overwrite, paper=paper)
+    check_standard(standard, values)
+    slopes, problems = read_slopes(
+        source, layer=layer, top=top, toe=toe, start=top_start, end=top_end, history=history
+    )
+    report = Report(quiet=quiet)
+    report.start(lambda: try_out(standard, scale, values, **options))
+    drawing = draw_slopes(
+        slopes,
+        standard,
+        scale,
+        problems=problems,
+        values=values,
+        track=lambda slopes: report.track(slopes, len(slopes), lambda _: 1, "hatching"),
+        **options,
+    )
+    for note in write_drawing(out, drawing, paper=paper):
+        report.say(f"note: {note}")
+    sum_up(drawing, out, report)
+    if drawing.n_refused:
+        raise typer.Exit(1)
+
+
+def given(**values: Any) -> dict[str, Any]:
+    """Values that are given."""
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
+    """Say what has come of a run."""
+    from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
+
+    found = Counter(trouble.kind for trouble in drawing.problems)
+    strokes = sum(0 if drawn.is_long is None else len(drawn.is_long) for drawn in drawing.objects)
+    report.say(
+        f"{strokes:,} strokes of {len(drawing.objects):,} objects at 1:{drawing.scale:g}, "
+        f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
+    )
+    report.say(f"written to {out}")
+    listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
+    for trouble in listed[:MOST_LISTED]:
+        report.say(f"refused: {trouble.id}: {trouble.reason}")
+    if len(listed) > MOST_LISTED:
+        report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
+    names = {LEFT_OUT: "objects left out", STROKE: "places where a stroke is amiss"}
+    for kind, number in found.items():
+        if kind != REFUSED:
+            report.say(f"note: {number:,} {names.get(kind, f'doubts: {kind}')}")
