@@ -1,4 +1,6 @@
-"""Sheets: SVG and PDF in true millimetres, at the scale of the map; PDF of several pages if need be.
+"""Sheets: SVG and PDF in true millimetres, at the scale of the map.
+
+A map that is larger than its paper takes several pages of a PDF.
 
 +-------------------+   margin around
 |  map, clipped     |
@@ -35,8 +37,8 @@ LARGEST = 5080.0  # PDF goes to 14,400 points
 PAPERS = {"A4": (210, 297), "A3": (297, 420), "A2": (420, 594), "A1": (594, 841), "A0": (841, 1189)}
 TEXT, FONT, FINE = "#333333", 2.6, 0.25  # colour, height in millimetres; width of the scale bar
 PROBLEM, DOT = "#d73027", 2.0
-BAR = 0.25  # of the page's width, at the most
-STYLE = {"lines.scale_dashes": False, "svg.hashsalt": "midrib", "pdf.fonttype": 42}
+BAR = 60.0  # millimetres, at the most, and a third of the page's width
+STYLE: dict[Any, Any] = {"lines.scale_dashes": False, "svg.hashsalt": "midrib", "pdf.fonttype": 42}
 
 
 class Page(NamedTuple):
@@ -130,7 +132,7 @@ def pages_of(drawing: "Drawing", paper: str | None) -> list[Page]:
 
 
 def needed(map_size: "Floats", paper: "Floats") -> Any:
-    """Number of pages beside and below each other."""
+    """Count the pages beside and below each other."""
     return np.maximum(np.ceil(map_size / (paper - AROUND)), 1.0).astype(np.intp)
 
 
@@ -207,7 +209,7 @@ def draw_footer(axes: "Axes", drawing: "Drawing", page: Page) -> None:
     style: dict[str, Any] = {"fontsize": FONT / POINT, "color": TEXT, "va": "center"}
     middle, right = 0.5 * (MARGIN + FOOTER), page.size[0] - MARGIN
     unit = drawing.millimetre * drawing.metres_per_unit  # metres in a millimetre
-    length = round_length(BAR * page.size[0] * unit)
+    length = round_length(min(BAR, page.size[0] / 3.0) * unit)
     left = right - length / unit
     x, y = np.array([left, left, right, right]), middle + np.array([1.0, 0.0, 0.0, 1.0])
     axes.plot(x, y, color=TEXT, lw=FINE / POINT, solid_joinstyle="miter")
