@@ -11,6 +11,8 @@ from midrib.cli.options import DrawingRule, StartSide
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from shapely import MultiPolygon, Polygon
+
     from midrib.cli.report import Report
     from midrib.formats.drawing.content import Drawing
 
@@ -45,6 +47,7 @@ def hatch(
     toe: cli.Toe = None,
     top_start: cli.TopStart = None,
     top_end: cli.TopEnd = None,
+    exclude: cli.Exclude = None,
     history: cli.History = False,
     paper: cli.PaperSize = None,
     overwrite: cli.Overwrite = False,
@@ -71,11 +74,14 @@ def hatch(
         min_length=min_length, first=first and first.value, stiffness=stiffness, offset=offset
     )
     options |= {"start": start.value, "end_strokes": end_strokes, "rule": rule.value}
-    check_places(out, [source], overwrite=overwrite, paper=paper)
+    sources = [source] if exclude is None else [source, exclude]
+    check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values)
     slopes, problems = read_slopes(
         source, layer=layer, top=top, toe=toe, start=top_start, end=top_end, history=history
     )
+    if exclude is not None:
+        options["exclude"] = zones_in(exclude)
     report = Report(quiet=quiet)
     report.start(lambda: try_out(standard, scale, values, **options))
     drawing = draw_slopes(
@@ -99,6 +105,17 @@ def given(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
+def zones_in(path: "Path") -> list["Polygon | MultiPolygon"]:
+    """Read the areas of a file, whatever else is in it."""
+    from shapely import MultiPolygon, Polygon
+
+    from midrib.formats.reading import choose_layer, open_layer
+
+    with open_layer(path, choose_layer(path, None)) as source:
+        features = [geometry for batch in source.batches() for geometry in batch.geometries]
+    return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
+
+
 def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     """Say what has come of a run."""
     from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
@@ -110,6 +127,8 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
     report.say(f"written to {out}")
+    if not drawing.objects and not drawing.problems:
+        report.say("note: IN has no slopes")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
     for trouble in listed[:MOST_LISTED]:
         report.say(f"refused: {trouble.id}: {trouble.reason}")

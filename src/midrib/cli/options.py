@@ -25,6 +25,7 @@ __all__ = [
     "EndStrokes",
     "EndsOption",
     "Factor",
+    "Exclude",
     "First",
     "From",
     "Gap",
@@ -355,6 +356,10 @@ TopStart: TypeAlias = Annotated[
 TopEnd: TypeAlias = Annotated[
     str | None, of_slopes(metavar="X,Y|LAYER:ID", help="Where tops end, likewise.")
 ]
+Exclude: TypeAlias = Annotated[
+    Path | None,
+    of_slopes("--exclude", metavar="FILE", help="Vector file with areas that no stroke may enter."),
+]
 History: TypeAlias = Annotated[
     bool, of_slopes("--history", metavar="", help="Draw objects too that have ended.")
 ]
@@ -374,8 +379,8 @@ Symbol: TypeAlias = Annotated[
     str | None,
     of_strokes(
         metavar="NAME",
-        help="line, wedge, triangle, filled-triangle, tapered, y, tadpole; the standard's unless "
-        "you say otherwise, as all of these:",
+        help="line, wedge, triangle, filled-triangle, tapered, y, tadpole. This and what follows "
+        "is the standard's, unless you say otherwise.",
     ),
 ]
 SymbolWidth: TypeAlias = Annotated[

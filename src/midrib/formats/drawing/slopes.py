@@ -1,8 +1,10 @@
 """Slopes of a register to a drawing: each in its standard, with what went wrong."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 from shapely import LineString
 
 from midrib import interrupts
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
     from midrib.hatching.standards import Standard
 
 __all__ = ["check_standard", "draw_slopes", "try_out"]
+
+SAME = 1e-9  # relative: lengths that rounding has made different
 
 
 def draw_slopes(
@@ -71,6 +75,7 @@ def draw_slopes(
     for slope in track(slopes):
         interrupts.check()
         add_slope(drawing, slope, styled(standard, slope.kind, values or {}), options)
+    draw_edges_once(drawing)
     return drawing
 
 
@@ -103,6 +108,24 @@ def add_slope(
     drawing.objects.append(drawn)
     for problem in [] if strokes is None else strokes.problems:
         drawing.problems.append(Trouble(slope.id, problem.reason, problem.where, STROKE))
+
+
+def draw_edges_once(drawing: Drawing) -> None:
+    """Leave out of each outline what an earlier one has drawn: dashes would fill gaps."""
+    edges = [edge for drawn in drawing.objects for edge in drawn.symbols.edges]
+    owner = [k for k, drawn in enumerate(drawing.objects) for _ in drawn.symbols.edges]
+    tree = shapely.STRtree(edges)
+    left: dict[int, list[LineString]] = {}
+    for i, edge in enumerate(edges):
+        before = [edges[j] for j in tree.query(edge, predicate="intersects") if j < i]
+        rest = shapely.difference(edge, shapely.union_all(before)) if before else edge
+        is_less = shapely.length(rest) < (1.0 - SAME) * shapely.length(edge)
+        rest = shapely.line_merge(rest) if is_less else edge  # crossings cut a line too
+        left.setdefault(owner[i], []).extend(shapely.get_parts(rest))
+    for k, lines in left.items():
+        drawn = drawing.objects[k]
+        symbols = replace(drawn.symbols, edges=np.array([*lines, None], dtype=object)[:-1])
+        drawing.objects[k] = replace(drawn, symbols=symbols)
 
 
 def styled(name: str, kind: str, values: dict[str, Any]) -> "Standard | None":
