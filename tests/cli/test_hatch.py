@@ -84,7 +84,7 @@ def test_no_stroke_enters_an_excluded_area(slopes: Path, tmp_path: Path, midrib:
     assert midrib("hatch", slopes, outs[1], "--top", "crest", "--exclude", zones).code == 0
     both = [pyogrio.read_dataframe(out, layer="strokes").geometry for out in outs]
     crossing = [strokes.intersection(house.buffer(-1e-9)).length.gt(0).sum() for strokes in both]
-    assert crossing[0] > 3
+    assert crossing[0] >= 2
     assert crossing[1] == 0
     assert len(both[1]) < len(both[0])
 
