@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Curve",
+    "Hatching",
     "Joint",
     "Problem",
     "Profile",
@@ -27,6 +29,7 @@ __all__ = [
     "Strip",
     "add_widths",
     "collapse",
+    "hatch",
     "measures",
     "methods",
     "minimal_radii",
@@ -39,6 +42,7 @@ __all__ = [
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
@@ -47,6 +51,7 @@ HOME = {
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
     "collapse": "midrib.curves.collapse",
+    "hatch": "midrib.hatching.hatch",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",

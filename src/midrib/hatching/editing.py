@@ -1,1 +1,209 @@
 """Changes of a hatching by hand: one stroke more, elsewhere, or less."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from midrib.checks import shown
+from midrib.errors import ParameterError
+from midrib.hatching.finishing import lines_of
+from midrib.hatching.hatch import Hatching, gaps_between
+from midrib.hatching.matching import Ground
+from midrib.kernels.chords import ON_TOE, ON_TOP
+from midrib.kernels.crossings import meet
+from midrib.kernels.ladder import draw_strokes
+from midrib.ragged import place_text
+from midrib.strip import position
+
+if TYPE_CHECKING:
+    from midrib.strip import Position
+    from midrib.types import Floats
+
+__all__ = ["add_stroke", "delete_stroke", "move_stroke"]
+
+HALVINGS = 60
+
+
+def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> Hatching:
+    """Add the stroke through a point of the slope.
+
+    Parameters
+    ----------
+    hatching : Hatching
+        By ``rule="matching"``.
+    at : Point or pair of float
+        A point on the top or in the slope. The stroke goes through it, in the direction that suits
+        the place.
+    is_long : bool, default True
+        Whether it reaches the toe.
+
+    Returns
+    -------
+    Hatching
+        A new one; the old one stays as it is.
+
+    Raises
+    ------
+    ParameterError
+        If no stroke leads through the point, or it would meet another stroke.
+
+    Examples
+    --------
+    >>> hatching = hatch(split(box(0, 0, 12, 4)), scale=500)
+    >>> add_stroke(hatching, (3, 1)).strokes[1].wkt
+    'LINESTRING (3 0, 3 4)'
+    """
+    ground = ground_of(hatching)
+    point = position(at, "at")
+    station, on_top, on_toe = stroke_through(ground, point)
+    share = 1.0 if is_long else hatching.rule.short_ratio
+    line = lines_of(on_top[None], on_toe[None], np.array([share]))
+    segments = np.concatenate([ends_of(hatching), np.append(on_top, on_toe)[None]])
+    n = len(hatching.strokes)
+    hits = meet(segments, np.arange(n), np.full(n, n))
+    if hits.any():
+        other = place_text(hatching.on_top[np.flatnonzero(hits)[0]])
+        msg = f"a stroke through {place_text(point)} would meet the one from {other}"
+        raise ParameterError(msg)
+    place = row_of(hatching, ground, station)
+    rows = {
+        "strokes": line[0],
+        "is_long": is_long,
+        "width": float(np.hypot(*(on_toe - on_top))),
+        "on_top": on_top,
+        "on_toe": on_toe,
+        "station": station,
+        "share": share,
+    }
+    changed = {
+        name: np.insert(getattr(hatching, name), place, value, axis=0)
+        for name, value in rows.items()
+    }
+    return replace(hatching, spacing=gaps_between(changed["station"], ground), **changed)
+
+
+def delete_stroke(hatching: Hatching, index: int) -> Hatching:
+    """Delete a stroke.
+
+    Parameters
+    ----------
+    hatching : Hatching
+    index : int
+        Which one, counted from 0 along the top, or from -1 back.
+
+    Returns
+    -------
+    Hatching
+        A new one; the other strokes stay what they are.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such stroke.
+    """
+    check_index(hatching, index)
+    names = ("strokes", "is_long", "width", "on_top", "on_toe", "station", "share")
+    changed = {name: np.delete(getattr(hatching, name), index, axis=0) for name in names}
+    return replace(hatching, spacing=gaps_between(changed["station"], hatching.ground), **changed)
+
+
+def move_stroke(hatching: Hatching, index: int, to: "Position") -> Hatching:
+    """Move a stroke so that it leads through a point; a long one stays long.
+
+    Parameters
+    ----------
+    hatching : Hatching
+        By ``rule="matching"``.
+    index : int
+        Which one, counted from 0 along the top, or from -1 back.
+    to : Point or pair of float
+        A point on the top or in the slope.
+
+    Returns
+    -------
+    Hatching
+        A new one.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such stroke, or the moved one would meet another.
+    """
+    ground_of(hatching)
+    check_index(hatching, index)
+    is_long = bool(hatching.is_long[index])
+    return add_stroke(delete_stroke(hatching, index), to, is_long=is_long)
+
+
+def check_index(hatching: Hatching, index: Any) -> None:
+    """Refuse an index of no stroke."""
+    n = len(hatching.strokes)
+    if isinstance(index, bool) or not isinstance(index, int | np.integer) or not -n <= index < n:
+        msg = f"index is {shown(index)}, expected one of {n} strokes"
+        raise ParameterError(msg)
+
+
+def ground_of(hatching: Hatching) -> Ground:
+    """Return what strokes are added to."""
+    if hatching.ground is None:
+        msg = "hatching is by rule='paper', expected one by rule='matching'"
+        raise ParameterError(msg)
+    return hatching.ground
+
+
+def ends_of(hatching: Hatching) -> "Floats":
+    """(n, 4) ends of the strokes as they are drawn."""
+    end = hatching.on_top + hatching.share[:, None] * (hatching.on_toe - hatching.on_top)
+    return np.concatenate([hatching.on_top, end], axis=1)
+
+
+def stroke_through(ground: Ground, point: "Floats") -> tuple[float, "Floats", "Floats"]:
+    """Station on the middle line and ends of the stroke through a point.
+
+    Strokes sweep over the slope from one rung to the next, so the point passes from the left of
+    the stroke to its right between two stations; these are halved.
+    """
+    tau = ground.ladder.rungs[:, 0]
+    rungs = draw_strokes(ground.ladder, tau.copy(), ground.spacing)
+    leads = (rungs.on == (ON_TOP, ON_TOE)).all(axis=1)
+    side = np.array([side_of(row, point) for row in rungs.chord])
+    turns = (side[:-1] <= 0.0) != (side[1:] <= 0.0)
+    off = abs(np.hypot(*(rungs.pivot[:, 1:3] - point).T))
+    pairs = np.flatnonzero(turns & (leads[:-1] | leads[1:]))
+    if not pairs.size:
+        msg = f"no stroke of the slope leads through {place_text(point)}"
+        raise ParameterError(msg)
+    k = int(pairs[np.argmin(off[pairs])])
+    low, high = float(tau[k]), float(tau[k + 1])
+    for _ in range(HALVINGS):
+        half = (low + high) / 2.0
+        chord = draw_strokes(ground.ladder, np.array([half]), ground.spacing).chord[0]
+        if (side_of(chord, point) <= 0.0) == (side[k] <= 0.0):
+            low = half
+        else:
+            high = half
+    drawn = draw_strokes(ground.ladder, np.array([low]), ground.spacing)
+    on_top, on_toe = drawn.chord[0, 2:4], drawn.chord[0, 4:6]
+    near = min(np.hypot(*(point - on_top)), np.hypot(*(point - on_toe)), drawn.chord[0, 6])
+    along = (on_toe - on_top) / drawn.chord[0, 6]
+    t = float((point - on_top) @ along)
+    is_on_it = -near <= t <= drawn.chord[0, 6] + near
+    if tuple(drawn.on[0]) != (ON_TOP, ON_TOE) or not is_on_it:
+        msg = f"no stroke of the slope leads through {place_text(point)}"
+        raise ParameterError(msg)
+    return low, on_top, on_toe
+
+
+def side_of(chord: "Floats", point: "Floats") -> float:
+    """Positive if a point is on the left of a chord, seen down from the top."""
+    along, off = chord[4:6] - chord[2:4], point - chord[2:4]
+    return float(along[0] * off[1] - along[1] * off[0])
+
+
+def row_of(hatching: Hatching, ground: Ground, station: float) -> int:
+    """Row before which a stroke at a station belongs."""
+    stations = hatching.station
+    if ground.middle.is_turned:
+        return int(np.searchsorted(-stations, -station))
+    return int(np.searchsorted(stations, station))

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiPolygon, Point, Polygon
+from shapely import MultiPolygon, Point, Polygon
 
 from midrib.errors import GeometryTypeError
 from midrib.hatching.matching import Drawn
@@ -47,12 +47,13 @@ def finish(
         middle = drawn.middle[len(drawn.middle) // 2]
         reason = f"the slope is nowhere as wide as the shortest stroke, {least:.3g}; none is drawn"
         problems.append(Problem(Point(middle), reason))
-    kept &= ~too_near(drawn, kept, problems)
+    gap = rule.gaps(width)
+    kept &= ~too_near(drawn, kept, gap, problems)
     is_long = np.zeros(kept.size, dtype=np.bool_)
     letters = pattern_from(rule.pattern, first)
     is_long[kept] = [letters[k % len(letters)] == "L" for k in range(np.count_nonzero(kept))]
     share = np.where(is_long, 1.0, rule.short_ratio)
-    shorten(drawn, kept & is_long, share, problems)
+    shorten(drawn, kept & is_long, gap, share, problems)
     hide(drawn, kept, share, zones, strip, problems)
     return Finished(kept, is_long, share, problems)
 
@@ -66,19 +67,12 @@ def pattern_from(pattern: str, first: str | None) -> str:
     return pattern[at:] + pattern[:at]
 
 
-def too_near(drawn: Drawn, kept: Bools, problems: list[Problem]) -> Bools:
+def too_near(drawn: Drawn, kept: Bools, gap: Floats, problems: list[Problem]) -> Bools:
     """Which strokes begin so near to the one before that only one of them can be drawn."""
-    rows = np.flatnonzero(kept)
     near = np.zeros(kept.size, dtype=np.bool_)
-    if rows.size < 2:
-        return near
-    steps = np.hypot(*np.diff(drawn.on_top[rows], axis=0).T)
-    if (steps >= LEAST_FOOT * drawn.gap[rows[1:]]).all():
-        return near
-    last = rows[0]
-    for row in rows[1:]:
-        step = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[last])))
-        if step < LEAST_FOOT * drawn.gap[row]:
+    last = -1
+    for row in np.flatnonzero(kept).tolist():
+        if last >= 0 and off(drawn.on_top, last, row) < LEAST_FOOT * (gap[last] + gap[row]) / 2.0:
             near[row] = True
             reason = "strokes would begin too near to each other; one is left out"
             problems.append(Problem(Point(drawn.on_top[row]), reason))
@@ -87,19 +81,26 @@ def too_near(drawn: Drawn, kept: Bools, problems: list[Problem]) -> Bools:
     return near
 
 
-def shorten(drawn: Drawn, whole: Bools, share: Floats, problems: list[Problem]) -> None:
+def shorten(
+    drawn: Drawn, whole: Bools, gap: Floats, share: Floats, problems: list[Problem]
+) -> None:
     """Let whole strokes end where the one before is still far enough, if not at the toe."""
-    rows = np.flatnonzero(whole)
-    foot = np.hypot(*np.diff(drawn.on_toe[rows], axis=0).T)
-    least = LEAST_FOOT * drawn.gap[rows[1:]]
-    for k in np.flatnonzero(foot < least):
-        row = rows[k + 1]
-        head = float(np.hypot(*(drawn.on_top[row] - drawn.on_top[rows[k]])))
-        share[row] = (
-            min(max((head - least[k]) / (head - foot[k]), 0.0), 1.0) if head > foot[k] else 1.0
-        )
+    last = -1
+    for row in np.flatnonzero(whole).tolist():
+        least = LEAST_FOOT * (gap[last] + gap[row]) / 2.0
+        foot = off(drawn.on_toe, last, row) if last >= 0 else np.inf
+        if foot >= least:
+            last = row
+            continue
+        head = off(drawn.on_top, last, row)
+        share[row] = min(max((head - least) / (head - foot), 0.0), 1.0) if head > foot else 1.0
         reason = "whole strokes would end too near to each other; one ends before the toe"
         problems.append(Problem(Point(drawn.on_toe[row]), reason))
+
+
+def off(points: Floats, i: int, j: int) -> float:
+    """Distance between two points."""
+    return float(np.hypot(points[j, 0] - points[i, 0], points[j, 1] - points[i, 1]))
 
 
 def hide(

@@ -1,12 +1,9 @@
 """Hatching a slope: strokes from its top to its toe that never cross."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import shapely
-from shapely import LineString
 
 from midrib.checks import check_flag, is_number, shown
 from midrib.errors import GeometryTypeError, ParameterError
@@ -244,7 +241,7 @@ def assemble(
 
 
 def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
-    """Distances between neighbours along the middle line; on a closed one from last to first too."""
+    """Distances between neighbours along the middle line, on a closed one all the way round."""
     if ground is None or not ground.middle.is_closed:
         gaps: Floats = abs(np.diff(station))
         return gaps
@@ -260,8 +257,7 @@ def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
 def least_length(value: Any, rule: Rule, ground: float) -> float:
     """Length in coordinate units of the shortest whole stroke to draw."""
     if value is None:
-        gap = rule.min_spacing if rule.factor is not None else rule.spacing or 0.0
-        return LEAST_LENGTH * gap
+        return LEAST_LENGTH * rule.least_gap
     if not is_number(value) or not 0.0 <= value < np.inf:
         msg = f"min_length is {shown(value)}, expected a number of 0 or more"
         raise ParameterError(msg)

@@ -3,8 +3,6 @@
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
-import shapely
-from shapely import LineString
 
 from midrib.errors import ParameterError
 from midrib.hatching.middle import Middle, middle_of
@@ -12,13 +10,14 @@ from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.ladder import Ladder, Spacing, Strokes, build_ladder, draw_strokes
 from midrib.kernels.mending import mend
+from midrib.kernels.spacing import place_strokes
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Drawn", "Ground", "Start", "draw_by_matching", "drawn_of"]
 
 Start: TypeAlias = Literal["left", "right", "first", "last"]
-PHASE, TAU, THETA = 6, 0, 4  # columns of rungs and of pivots
+TAU, THETA, GAP = 0, 4, 6  # columns of rungs
 MOST_STROKES = 10_000_000
 UNMATCHED = "no straight stroke from top to toe goes on along both edges here; one is left out"
 
@@ -30,13 +29,23 @@ class Drawn(NamedTuple):
     middle: Floats  # (n, 2) the point there
     on_top: Floats
     on_toe: Floats
-    gap: Floats  # (n,) that the rule asks for
     kept: Bools
     reason: str  # why others are not
 
+    def of_rows(self, rows: Ints) -> "Drawn":
+        """Return some of the strokes."""
+        return Drawn(
+            self.station[rows],
+            self.middle[rows],
+            self.on_top[rows],
+            self.on_toe[rows],
+            self.kept[rows],
+            self.reason,
+        )
+
 
 class Ground(NamedTuple):
-    """A slope prepared for strokes, the rule for gaps, and whether the pattern starts on the right."""
+    """A slope prepared for strokes, the rule for gaps, and where the pattern starts."""
 
     middle: Middle
     ladder: Ladder
@@ -69,11 +78,7 @@ def draw_by_matching(
 
 def spacing_of(rule: Rule) -> Spacing:
     """Return the rule for gaps as the kernels take it."""
-    if rule.factor is None:
-        fixed = max(rule.spacing or 0.0, rule.min_spacing)
-        return Spacing(0.0, fixed, fixed)
-    most = np.inf if rule.max_spacing is None else rule.max_spacing
-    return Spacing(float(rule.factor), float(rule.min_spacing), max(float(most), rule.min_spacing))
+    return Spacing(float(rule.factor or 0.0), float(rule.least_gap), float(rule.largest_gap))
 
 
 def check_count(middle: Middle, spacing: Spacing) -> None:
@@ -90,10 +95,9 @@ def check_count(middle: Middle, spacing: Spacing) -> None:
 def draw_along(ground: Ground, offset: float, stiffness: float) -> tuple[Strokes, Bools]:
     """Strokes of an open slope: a whole count of gaps between those that are ``offset`` away."""
     middle, ladder, spacing, _ = ground
-    total = ladder.rungs[-1, PHASE]
-    count = max(int(np.round(total - 2.0 * offset)), 0)
-    phases = total / (count + 2.0 * offset) * (offset + np.arange(count + 1))
-    strokes = draw_strokes(ladder, phases, spacing)
+    tau, gap = ladder.rungs[:, TAU].copy(), ladder.rungs[:, GAP].copy()
+    stations, _ = place_strokes(tau, gap, offset, 1)
+    strokes = draw_strokes(ladder, stations, spacing)
     return strokes, mend(ladder, strokes, middle.periods, stiffness)
 
 
@@ -102,25 +106,31 @@ def draw_around(
 ) -> tuple[Strokes, Bools]:
     """Strokes of a closed slope: a whole count of patterns, from a vertex of the top on."""
     middle, ladder, spacing, from_right = ground
-    total, length = ladder.rungs[-1, PHASE], ladder.rungs[-1, TAU]
-    turn = ladder.rungs[-1, THETA] - ladder.rungs[0, THETA]
-    unit = total / (period * max(int(np.round(total / period)), 1))
-    count = int(np.round(total / unit))
-    away = -offset if from_right else offset
-    first = phase_of_vertex(ground, origin) + away * unit
-    phases = np.sort((first + unit * np.arange(count)) % total)
-    strokes = draw_strokes(ladder, phases, spacing)
+    tau, gap = ladder.rungs[:, TAU], ladder.rungs[:, GAP]
+    length, turn = tau[-1], ladder.rungs[-1, THETA] - ladder.rungs[0, THETA]
+    start = station_of_vertex(ground, origin)
+    away = offset * float(np.interp(start, tau, gap))
+    start = (start - away if from_right else start + away) % length
+    # The same rungs, from the start on.
+    after = np.searchsorted(tau, start, side="right")
+    around = np.concatenate([[start], tau[after:-1], tau[:after] + length, [start + length]])
+    ends = np.interp(start, tau, gap)
+    gaps = np.concatenate([[ends], gap[after:-1], gap[:after], [ends]])
+    around, kept = np.unique(around, return_index=True)
+    stations, _ = place_strokes(around, gaps[kept], 0.0, period)
+    stations %= length
+    first = int(np.argmin(stations))
+    strokes = draw_strokes(ladder, np.roll(stations, -first), spacing)
     # The kernel mends from a calm stroke to itself: the seam goes where trouble is far.
     seam = calmest(strokes, middle.periods)
     strokes = rolled(strokes, seam, length, turn)
-    kept = mend(ladder, strokes, middle.periods, stiffness)
-    start = int(np.argmin(abs(phases - first % total)))
-    back = (start - seam + (1 if from_right else 0)) % count
-    return rolled(strokes, back, length, turn), np.roll(kept, -back)
+    stays = mend(ladder, strokes, middle.periods, stiffness)
+    back = (-first - seam + (1 if from_right else 0)) % len(stations)
+    return rolled(strokes, back, length, turn), np.roll(stays, -back)
 
 
-def phase_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float:
-    """Phase of the stroke from a vertex of a closed top: one given, or the leftmost, lowest one."""
+def station_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float:
+    """Station of the stroke from a vertex of a closed top: one given, or the leftmost, lowest."""
     middle, ladder, spacing, _ = ground
     vertex = middle.top.vertex[:-1]
     x, y = middle.mesh.x[vertex], middle.mesh.y[vertex]
@@ -128,16 +138,15 @@ def phase_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float:
         row = int(np.lexsort([y, x])[0])
     else:
         row = int(np.argmin(np.hypot(x - origin[0], y - origin[1])))
-    period = middle.periods[0]
-    rungs = draw_strokes(ladder, ladder.rungs[:-1, PHASE].copy(), spacing)
+    period, tau = middle.periods[0], ladder.rungs[:, TAU]
+    rungs = draw_strokes(ladder, tau[:-1].copy(), spacing)
     ahead = (middle.top.arc[row] - rungs.chord[:, 0]) % period
     ahead[rungs.on[:, 0] != ON_TOP] = np.inf
     before = int(np.argmin(ahead))
     after = (before + 1) % ahead.size
     step = (rungs.chord[after, 0] - rungs.chord[before, 0]) % period
     share = min(ahead[before] / step, 1.0) if step > 0.0 else 0.0
-    phase = ladder.rungs[:, PHASE]
-    return float(phase[before] + share * (phase[before + 1] - phase[before]))
+    return float(tau[before] + share * (tau[before + 1] - tau[before]))
 
 
 def calmest(strokes: Strokes, periods: Floats) -> int:
@@ -147,17 +156,19 @@ def calmest(strokes: Strokes, periods: Floats) -> int:
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
     is_calm &= (shares > 0.3).all(axis=1) & (shares < 1.6).all(axis=1)
     n = is_calm.size
-    trouble = np.flatnonzero(~is_calm)
-    if not trouble.size:
+    trouble = np.flatnonzero(~is_calm).tolist()
+    if not trouble:
         return 0
-    run = np.diff(np.append(trouble, trouble[0] + n))
-    longest = int(np.argmax(run))
-    return int(trouble[longest] + (run[longest] + 1) // 2) % n
+    runs = np.diff([*trouble, trouble[0] + n]).tolist()
+    longest = int(np.argmax(runs))
+    middle: int = (trouble[longest] + (runs[longest] + 1) // 2) % n
+    return middle
 
 
 def rolled(strokes: Strokes, first: int, length: float, turn: float) -> Strokes:
     """Return the strokes of a closed slope from another one on."""
-    pivot, triangle, chord, on = (np.roll(part, -first, axis=0) for part in strokes)
+    pivot, chord = np.roll(strokes.pivot, -first, axis=0), np.roll(strokes.chord, -first, axis=0)
+    triangle, on = np.roll(strokes.triangle, -first), np.roll(strokes.on, -first, axis=0)
     if first:
         pivot[-first:, 0] += length
         pivot[-first:, 3:5] += turn
@@ -172,7 +183,6 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
         strokes.pivot[:, 1:3],
         strokes.chord[:, 2:4],
         strokes.chord[:, 4:6],
-        strokes.pivot[:, 5],
         kept,
         UNMATCHED,
     )
@@ -180,24 +190,25 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
 
 def reversed_(drawn: Drawn) -> Drawn:
     """Return the same strokes the other way."""
-    return Drawn(*(part[::-1] for part in drawn[:-1]), drawn.reason)
+    return drawn.of_rows(np.arange(len(drawn.station))[::-1])
 
 
 def with_ends(drawn: Drawn, middle: Middle) -> Drawn:
     """Add a stroke on each end of the slope that is a straight cap."""
     mesh, top, toe = middle.mesh, middle.top.vertex, middle.toe.vertex
     total = float(np.hypot(*np.diff(middle.line, axis=0).T).sum())
-    for end, station, at in ((0, 0.0, 0), (-1, total, drawn.station.size)):
+    for end, station in ((0, 0.0), (-1, total)):
         a, b = top[end], toe[end]
         if a == b:
             continue
-        at += 1 if end and drawn.station.size > at else 0
         on_top, on_toe = np.array([mesh.x[a], mesh.y[a]]), np.array([mesh.x[b], mesh.y[b]])
-        gap = drawn.gap[end] if drawn.gap.size else 0.0
-        row = (station, (on_top + on_toe) / 2.0, on_top, on_toe, gap, True)
-        parts = [
-            np.insert(part, 0 if end == 0 else len(part), value, axis=0)
-            for part, value in zip(drawn[:-1], row, strict=True)
-        ]
-        drawn = Drawn(*parts, drawn.reason)
+        place = 0 if end == 0 else len(drawn.station)
+        drawn = Drawn(
+            np.insert(drawn.station, place, station),
+            np.insert(drawn.middle, place, (on_top + on_toe) / 2.0, axis=0),
+            np.insert(drawn.on_top, place, on_top, axis=0),
+            np.insert(drawn.on_toe, place, on_toe, axis=0),
+            np.insert(drawn.kept, place, True),
+            drawn.reason,
+        )
     return drawn

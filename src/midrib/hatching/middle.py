@@ -60,13 +60,18 @@ def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
     if strip.area.interiors:
         strip = Strip(strip.main, strip.auxiliary, without_holes(strip.area))
     layout = strip.layout
-    main = layout.main
+    main, middle = layout.main, layout.middle
     if layout.mesh.tri[main.side[0]] == main.vertex[0]:
         return layout, False
     turned = layout._replace(
         main=backwards(main),
         auxiliary=backwards(layout.auxiliary),
-        middle=EndPoints(*(part[::-1].copy() for part in layout.middle)),
+        middle=EndPoints(
+            middle.point[::-1].copy(),
+            middle.origin[::-1].copy(),
+            middle.at[::-1].copy(),
+            middle.height[::-1].copy(),
+        ),
     )
     return turned, True
 

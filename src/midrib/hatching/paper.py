@@ -11,6 +11,7 @@ Cartography 66(1), 2017, section 5, Eq. 2 and Fig. 12.
 """
 
 import numpy as np
+import shapely
 
 from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError
@@ -40,35 +41,28 @@ def draw_by_paper(strip: Strip, rule: Rule) -> Drawn:
         msg = "top and toe are closed, which rule='paper' does not hatch; rule='matching' does"
         raise InvalidAreaError(msg)
     total = strip.main.length
-    least = rule.min_spacing if rule.factor is not None else rule.spacing or 0.0
-    probe = minimal_radii(strip, spacing=max(least / PROBES, total / 2.0**20), ends=None)
-    stations, gaps = march(probe.stations, probe.radii, total, rule, least)
+    probe = minimal_radii(strip, spacing=max(rule.least_gap / PROBES, total / 2.0**20), ends=None)
+    stations = march(probe.stations, probe.radii, total, rule)
     curve = minimal_radii(strip, stations=stations, vertices=False, ends=None)
     _, row = np.unique(curve.stations, return_index=True)
     found = np.isin(stations, curve.stations[row])
     on_top, on_toe = np.full((stations.size, 2), np.nan), np.full((stations.size, 2), np.nan)
     on_top[found], on_toe[found] = curve.on_main[row], curve.on_auxiliary[row]
-    on_top[~found] = [strip.main.interpolate(s).coords[0] for s in stations[~found]]
+    places = shapely.line_interpolate_point(strip.main, stations[~found])
+    on_top[~found] = shapely.get_coordinates(places)
     middle = np.where(found[:, None], (on_top + on_toe) / 2.0, on_top)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(middle, axis=0).T))])
-    return Drawn(along, middle, on_top, on_toe, gaps, found, BLIND)
+    return Drawn(along, middle, on_top, on_toe, found, BLIND)
 
 
-def march(
-    probes: Floats, lengths: Floats, total: float, rule: Rule, least: float
-) -> tuple[Floats, Floats]:
-    """Stations of strokes, and the gap before each."""
-    factor = rule.factor or 0.0
-    most = np.inf if rule.max_spacing is None else rule.max_spacing
-    stations, gaps = [], []
+def march(probes: Floats, lengths: Floats, total: float, rule: Rule) -> Floats:
+    """Stations of strokes."""
+    stations: list[float] = []
     station, a = 0.0, 0.0
     while True:
         c = float(np.interp(station, probes, lengths))
-        gap = min(max(factor * (a + c) / 2.0, least), most)
-        station += gap
+        station += float(rule.gaps(np.array([(a + c) / 2.0]))[0])
         if station >= total:
-            break
+            return np.array(stations)
         stations.append(station)
-        gaps.append(gap)
         a = c
-    return np.array(stations), np.array(gaps)

@@ -3,10 +3,15 @@
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
 
 from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
 
 __all__ = ["LEAST_LENGTH", "Rule", "rule_of"]
 
@@ -57,6 +62,25 @@ class Rule:
     max_spacing: float | None = None
     pattern: str = "LS"
     short_ratio: float = 0.5
+
+    @property
+    def least_gap(self) -> float:
+        """Gap where strokes are shortest."""
+        if self.factor is None:
+            return max(self.spacing or 0.0, self.min_spacing)
+        return self.min_spacing
+
+    @property
+    def largest_gap(self) -> float:
+        """Gap where strokes are longest; infinite where there is no bound."""
+        if self.factor is None:
+            return self.least_gap
+        return np.inf if self.max_spacing is None else max(self.max_spacing, self.min_spacing)
+
+    def gaps(self, width: "Floats") -> "Floats":
+        """Gaps that the rule asks for beside strokes that are so long."""
+        gaps: Floats = np.clip((self.factor or 0.0) * width, self.least_gap, self.largest_gap)
+        return gaps
 
 
 # The paper's formula b = (a + c) / 4, for the name that is the default, if there are no others.

@@ -19,7 +19,7 @@ import numpy as np
 from midrib.kernels.chain import Chain
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import Mesh, contains, pull_inside
+from midrib.kernels.mesh import Mesh, contains, is_beyond
 from midrib.kernels.paths import walk
 from midrib.kernels.predicates import orient
 from midrib.kernels.triangulation import next_side
@@ -28,6 +28,7 @@ from midrib.types import Floats, Ints
 __all__ = ["NOWHERE", "ON_TOE", "ON_TOP", "Chord", "Ground", "ground_of", "locate", "shoot"]
 
 NOWHERE, ON_TOP, ON_TOE = 0, 1, 2
+ROUNDING, STEPS_BACK = 2.0**-53, 12
 
 
 class Ground(NamedTuple):
@@ -95,7 +96,7 @@ def ray(
 ) -> tuple[int, float, float, float]:
     """Return where the ray from p, in triangle t, along the unit vector u leaves the area.
 
-    The edge, the station on it, and the point, pulled inside by rounding's width.
+    The edge, the station on it, and the point, which is inside.
     """
     mesh = ground.mesh
     qx, qy = px + ground.reach * ux, py + ground.reach * uy
@@ -108,7 +109,13 @@ def ray(
     share = min(max(at_a / (at_a - at_b), 0.0), 1.0) if at_a != at_b else 0.5
     x = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
     y = mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
-    x, y, _ = pull_inside(mesh, e // 3, x, y)
+    # Rounding may have put the end beyond its side: back towards p by rounding's width.
+    back = ROUNDING * (abs(x) + abs(y)) / max(length(px - x, py - y), ROUNDING * (abs(x) + abs(y)))
+    for _ in range(STEPS_BACK):
+        if not is_beyond(mesh, e, x, y):
+            break
+        x, y = x + back * (px - x), y + back * (py - y)
+        back *= 2.0
     return ground.edge[e], ground.start[e] + share * (ground.stop[e] - ground.start[e]), x, y
 
 

@@ -14,7 +14,6 @@ nothing is left of it; what is much shorter than w is evened out.
 tau       arc length along the middle line
 w         length of the chord
 b         gap that the rule asks for: clamp(factor w, least, most)
-phase     integral of 1 / b over tau: one unit for each gap
 """
 
 from typing import NamedTuple
@@ -37,7 +36,7 @@ MOST_RUNGS = 2**24
 WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
 MOST_COPIES = 64
-TAU, X, Y, NORMAL, THETA, WIDTH, PHASE = range(7)
+TAU, X, Y, NORMAL, THETA, WIDTH, GAP = range(7)
 
 
 class Spacing(NamedTuple):
@@ -54,7 +53,7 @@ class Ladder(NamedTuple):
     ground: Ground
     line: Floats  # (m, 2) the middle line
     arc: Floats  # (m,) stations of its vertices
-    rungs: Floats  # (n, 7) tau, x, y, normal, theta, width, phase
+    rungs: Floats  # (n, 7) tau, x, y, normal, theta, width, gap
     at: Ints  # (n, 2) triangle of the pivot, segment of the line
 
 
@@ -120,14 +119,17 @@ def normal_at(line: Floats, arc: Floats, k: int, tau: float, half: float, is_clo
 
 @njit()
 def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
-    """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n)."""
+    """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n).
+
+    What is solved for is how far they are off the normals: nothing at all where these bend
+    steadily, without rounding.
+    """
     n = tau.size
-    matrix, theta = np.zeros((n, 3)), np.zeros(n)  # row i: columns i, i + 1, i + 2
+    matrix, off = np.zeros((n, 3)), np.zeros(n)  # row i: columns i, i + 1, i + 2
     for i in range(n - 1):
         step = tau[i + 1] - tau[i]
-        for k in (i, i + 1):
-            matrix[k, 0] += step / 2.0
-            theta[k] += normal[k] * step / 2.0
+        matrix[i, 0] += step / 2.0
+        matrix[i + 1, 0] += step / 2.0
     for i in range(1, n - 1):
         before, after = tau[i] - tau[i - 1], tau[i + 1] - tau[i]
         mean = (before + after) / 2.0
@@ -139,18 +141,24 @@ def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
         matrix[i, 0] += weight * middle * middle
         matrix[i, 1] += weight * middle * last
         matrix[i + 1, 0] += weight * last * last
+        bend = (normal[i + 1] - normal[i]) / after - (normal[i] - normal[i - 1]) / before
+        off[i - 1] -= weight * first * bend / mean
+        off[i] -= weight * middle * bend / mean
+        off[i + 1] -= weight * last * bend / mean
     # Cholesky without roots: each row is subtracted from the two below it.
     for i in range(n):
         for k in range(1, min(3, n - i)):
             share = matrix[i, k] / matrix[i, 0]
             for column in range(k, 3):
                 matrix[i + k, column - k] -= share * matrix[i, column]
-            theta[i + k] -= share * theta[i]
+            off[i + k] -= share * off[i]
     for i in range(n - 1, -1, -1):
         for k in range(1, min(3, n - i)):
-            theta[i] -= matrix[i, k] * theta[i + k]
-        theta[i] /= matrix[i, 0]
-    return theta
+            off[i] -= matrix[i, k] * off[i + k]
+        off[i] /= matrix[i, 0]
+    for i in range(n):
+        off[i] += normal[i]
+    return off
 
 
 @njit()
@@ -239,17 +247,14 @@ def build_ladder(
         rungs[n, NORMAL] = rungs[0, NORMAL] + turn
         at[n, 0], at[n, 1] = at[0, 0], m - 2
         n += 1
-    # 3. Phases, by the chords in these directions.
-    before = 0.0
+    # 3. Gaps, by the chords in these directions.
     for i in range(n):
         chord = shoot(ground, at[i, 0], rungs[i, X], rungs[i, Y], rungs[i, THETA])
-        rungs[i, WIDTH] = chord.width
-        density = 1.0 / gap_at(rule, chord.width)
-        rungs[i, PHASE] = 0.0
-        if i > 0:
-            step = rungs[i, TAU] - rungs[i - 1, TAU]
-            rungs[i, PHASE] = rungs[i - 1, PHASE] + (before + density) / 2.0 * step
-        before = density
+        rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
+    # A chord from the boundary itself, where an open line ends, may lie along it and tell nothing.
+    if not is_closed:
+        for i, beside in ((0, 1), (n - 1, n - 2)):
+            rungs[i, WIDTH], rungs[i, GAP] = rungs[beside, WIDTH], rungs[beside, GAP]
     return Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
 
 
@@ -264,22 +269,22 @@ def write_chord(strokes: Strokes, i: int, chord: Chord) -> None:
 
 
 @njit(entry=True)
-def draw_strokes(ladder: Ladder, phases: Floats, rule: Spacing) -> Strokes:
-    """Draw whole strokes at phases, in increasing order, by the ladder's directions; O(n).
+def draw_strokes(ladder: Ladder, stations: Floats, rule: Spacing) -> Strokes:
+    """Draw whole strokes at stations, in increasing order, in the ladder's directions; O(n).
 
     An end that lies on the wrong edge is for ``mend`` to see to.
     """
     rungs, at, line, arc = ladder.rungs, ladder.at, ladder.line, ladder.arc
-    n = phases.size
+    n = stations.size
     strokes = Strokes(
         np.empty((n, 6)), np.empty(n, np.intp), np.empty((n, 7)), np.empty((n, 2), np.intp)
     )
     j = 0
     for i in range(n):
-        while j + 2 < rungs.shape[0] and rungs[j + 1, PHASE] < phases[i]:
+        tau = stations[i]
+        while j + 2 < rungs.shape[0] and rungs[j + 1, TAU] < tau:
             j += 1
-        share = (phases[i] - rungs[j, PHASE]) / (rungs[j + 1, PHASE] - rungs[j, PHASE])
-        tau = rungs[j, TAU] + share * (rungs[j + 1, TAU] - rungs[j, TAU])
+        share = (tau - rungs[j, TAU]) / (rungs[j + 1, TAU] - rungs[j, TAU])
         t, _, x, y = follow(
             ladder.ground.mesh, line, arc, at[j, 0], at[j, 1], rungs[j, X], rungs[j, Y], tau
         )

@@ -1,4 +1,4 @@
-"""Mending: other directions for strokes that would miss an edge, cross, or end too near another.
+r"""Mending: other directions for strokes that would miss an edge, cross, or end too near another.
 
 A stroke is in *trouble* if its chord does not lead from top to toe, or if it and the next one do
 not advance on both edges by a decent share of a gap. Each run of strokes in trouble, with some
@@ -67,7 +67,7 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
 def cost_of_step(
     strokes: Strokes, i: int, j: int, turn: float, ahead: float, beside: float, stiffness: float
 ) -> float:
-    """Cost of strokes i and j after each other: of turning more than calm, and of feet too near or far."""
+    """Cost of strokes i and j in turn: of bends that calm ones have not, of feet near or far."""
     gap = (strokes.pivot[i, 5] + strokes.pivot[j, 5]) / 2.0
     step = strokes.pivot[j, 0] - strokes.pivot[i, 0]
     reach = stiffness * (strokes.chord[i, 6] + strokes.chord[j, 6]) / 2.0

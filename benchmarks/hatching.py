@@ -1,0 +1,322 @@
+"""How good hatchings are: shapes, random slopes, rings, real registers; and rivals beside them.
+
+Writes the figures of docs/hatching.md and a sheet of the worst cases to out/hatching.png.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import LineString
+
+from hatch_slopes import KINDS, Slope, noisy, random_slopes, real_dutch, real_polish, shapes
+from midrib import Strip, minimal_radii
+from midrib.errors import MidribError
+from midrib.hatching import Hatching, Rule, hatch
+from midrib.hatching.measures import Measures, measure, measure_strokes
+from midrib.hatching.middle import middle_of
+from tables import ROOT, machine_text, markdown, write_json
+
+Floats = NDArray[np.float64]
+Ends = tuple[Floats, Floats]
+PAGE = ROOT / "docs" / "hatching.md"
+BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
+SEED, COUNT = 1000, 1200
+HEAD = (
+    "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
+    "spacing within 0.9–1.1", "worst spacing", "worst gap on top, toe", "least foot",
+    "turned too far", "worst turn", "tilt, 99 %",
+)  # fmt: skip
+
+
+class Row(NamedTuple):
+    """A hatching and its numbers."""
+
+    name: str
+    strip: Strip
+    hatching: Hatching | None
+    measures: Measures
+    problems: int
+
+
+# -- rivals ----------------------------------------------------------------------------------------
+
+
+def stations_of(strip: Strip, gap: float) -> Floats:
+    """Stations on the top, about a gap apart."""
+    count = max(round(strip.main.length / gap), 2)
+    return strip.main.length * np.arange(1, count) / count
+
+
+def by_normals(strip: Strip, stations: Floats) -> Ends:
+    """Normals of the top, as far as the boundary."""
+    on_top = points_at(strip.main, stations)
+    before = points_at(strip.main, np.maximum(stations - 1e-6, 0.0))
+    after = points_at(strip.main, stations + 1e-6)
+    along = (after - before) / np.hypot(*(after - before).T)[:, None]
+    left = np.column_stack([-along[:, 1], along[:, 0]])
+    inwards = shapely.contains_xy(strip.area, *(on_top + 1e-6 * left).T)
+    left[~inwards] *= -1.0
+    x_low, y_low, x_high, y_high = strip.area.bounds
+    far = on_top + left * (x_high - x_low + y_high - y_low)
+    rays = shapely.linestrings(np.stack([on_top + 1e-9 * left, far], axis=1))
+    hits = shapely.shortest_line(
+        shapely.points(on_top), shapely.intersection(rays, strip.area.boundary)
+    )
+    return on_top, shapely.get_coordinates(shapely.get_point(hits, -1))
+
+
+def by_proportion(strip: Strip, stations: Floats) -> Ends:
+    """Equal shares of top and toe."""
+    share = stations / strip.main.length
+    return points_at(strip.main, stations), points_at(
+        strip.auxiliary, share * strip.auxiliary.length
+    )
+
+
+def by_nearest(strip: Strip, stations: Floats) -> Ends:
+    """The paper: the nearest point of the toe that is seen."""
+    curve = minimal_radii(strip, stations=stations, vertices=False, ends=None)
+    _, rows = np.unique(curve.stations, return_index=True)
+    return curve.on_main[rows], curve.on_auxiliary[rows]
+
+
+def by_dropping(strip: Strip, stations: Floats) -> Ends:
+    """Normals, but for those that cross one that is drawn already or do not end on the toe."""
+    on_top, on_toe = by_normals(strip, stations)
+    kept: list[int] = []
+    lines = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
+    reaches = shapely.distance(shapely.points(on_toe), strip.auxiliary) < 1e-6
+    for i in range(len(lines)):
+        if reaches[i] and not (kept and shapely.intersects(lines[kept], lines[i]).any()):
+            kept.append(i)
+    return on_top[kept], on_toe[kept]
+
+
+RIVALS: dict[str, Callable[[Strip, Floats], Ends]] = {
+    "normals, clipped": by_normals,
+    "proportional": by_proportion,
+    "nearest visible (the paper)": by_nearest,
+    "normals, dropped on conflict": by_dropping,
+}
+
+
+def points_at(line: LineString, stations: Floats) -> Floats:
+    """Points of a line."""
+    return shapely.get_coordinates(shapely.line_interpolate_point(line, stations))
+
+
+def gap_of(strip: Strip) -> float:
+    """Half the mean width: one gap for the whole slope, so that every rival can keep it."""
+    return float(strip.area.area / strip.main.length / 2.0)
+
+
+def rival_row(name: str, slope: Slope, draw: Callable[[Strip, Floats], Ends]) -> Row:
+    """Measure a rival on one slope; long and short strokes in turn."""
+    strip, gap = slope.strip, gap_of(slope.strip)
+    on_top, on_toe = draw(strip, stations_of(strip, gap))
+    is_long = np.arange(len(on_top)) % 2 == 0
+    share = np.where(is_long, 1.0, 0.5)[:, None]
+    strokes = shapely.linestrings(np.stack([on_top, on_top + share * (on_toe - on_top)], axis=1))
+    rule = Rule(factor=None, spacing=gap)
+    middle = LineString(middle_of(strip).line)
+    found = measure_strokes(strip, rule, middle, strokes, is_long, on_top, on_toe)
+    return Row(f"{name}: {slope.name}", strip, None, found, 0)
+
+
+# -- tables ----------------------------------------------------------------------------------------
+
+
+def hatched(slopes: Iterable[Slope], **options: Any) -> list[Row]:
+    """Hatch and measure."""
+    rows = []
+    for slope in slopes:
+        hatching = hatch(slope.strip, **options)
+        rows.append(
+            Row(slope.name, slope.strip, hatching, measure(hatching), len(hatching.problems))
+        )
+    return rows
+
+
+def evenly(slopes: Iterable[Slope]) -> list[Row]:
+    """Hatch with the one gap that rivals have."""
+    return [
+        row
+        for slope in slopes
+        for row in hatched([slope], scale=1000, spacing=gap_of(slope.strip), min_spacing=1e-3)
+    ]
+
+
+def summary(title: str, rows: list[Row]) -> list[str]:
+    """One line of the table."""
+    every = [row.measures for row in rows]
+    spacing = np.concatenate([m.spacing for m in every])
+    beyond = np.concatenate([m.turns - m.allowed for m in every])
+    turns = np.concatenate([m.turns for m in every])
+    tilts = np.concatenate([m.tilts for m in every])
+    within = np.mean((spacing >= 0.9) & (spacing <= 1.1))
+    return [
+        f"{title} ({len(rows)})",
+        f"{sum(m.strokes for m in every):,}",
+        f"{sum(m.crossings for m in every):,}",
+        f"{max(m.outside for m in every):.2g}",
+        f"{sum(m.short_of_edge for m in every):,}",
+        f"{sum(row.problems for row in rows):,}",
+        f"{100.0 * within:.2f} %",
+        f"{spacing.min():.2f}–{spacing.max():.2f}",
+        f"{max(m.top_gap for m in every):.2f}, {max(m.toe_gap for m in every):.2f}",
+        f"{min(m.least_foot for m in every):.2f}",
+        f"{100.0 * np.mean(beyond > 0.5):.2f} %",
+        f"{turns.max():.0f}°",
+        f"{np.percentile(tilts, 99):.1f}°" if tilts.size else "–",
+    ]
+
+
+def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
+    """Largest change of direction of a stroke of each slope under noise on its top, in degrees."""
+    changes = []
+    for i, slope in enumerate(slopes):
+        shaken = noisy(slope.strip, share, SEED + i)
+        if shaken is None:
+            continue
+        calm, moved = hatch(slope.strip), hatch(shaken)
+        assert calm.ground is not None
+        rungs = calm.ground.ladder.rungs
+        near = shapely.STRtree(shapely.points(rungs[:, 1:3])).nearest(
+            shapely.points((moved.on_top + moved.on_toe) / 2.0)
+        )
+        across = moved.on_toe - moved.on_top
+        angle = np.arctan2(across[:, 1], across[:, 0]) - rungs[near, 4]
+        changes.append(np.degrees(abs((angle + np.pi) % (2 * np.pi) - np.pi)).max())
+    return np.array(changes)
+
+
+def speed(n: int, spacing: float) -> tuple[int, float]:
+    """Strokes, and CPU seconds for them, on a slope with edges of n vertices; the best of seven."""
+    rng = np.random.default_rng(SEED)
+    x = np.linspace(0.0, 2.0 * n, n)
+    middle = 20.0 * np.sin(x / 60.0)
+    top, toe = (
+        LineString(np.column_stack([x, middle + side + rng.normal(0.0, 0.2, n)]))
+        for side in (5.0, -5.0)
+    )
+    best, count = np.inf, 0
+    for _ in range(7):
+        strip = Strip(top, toe)  # it keeps its triangles, so that each run needs a new one
+        start = time.process_time()
+        count = len(hatch(strip, scale=1000, spacing=spacing).strokes)
+        best = min(best, time.process_time() - start)
+    return count, best
+
+
+def worst_sheet(rows: list[Row], path: Path, count: int = 12) -> None:
+    """Draw the slopes with the worst spacing, turn, gap and foot."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    import matplotlib.pyplot as plt
+
+    keys: list[Callable[[Row], float]] = [
+        lambda row: float(abs(np.log(row.measures.spacing)).max(initial=0.0)),
+        lambda row: float((row.measures.turns - row.measures.allowed).max(initial=-90.0)),
+        lambda row: max(row.measures.top_gap, row.measures.toe_gap),
+        lambda row: -row.measures.least_foot,
+    ]
+    chosen = {row.name: row for key in keys for row in sorted(rows, key=key)[-count // len(keys) :]}
+    columns = 3
+    lines = -(-len(chosen) // columns)
+    figure, axes = plt.subplots(lines, columns, figsize=(9 * columns, 7 * lines), squeeze=False)
+    for plot in axes.flat:
+        plot.axis("off")
+    for plot, row in zip(axes.flat, chosen.values(), strict=False):
+        hatching, (x, y) = row.hatching, row.strip.area.centroid.coords[0]
+        assert hatching is not None
+        for line, colour in ((row.strip.main, "tab:red"), (row.strip.auxiliary, "tab:blue")):
+            plot.plot(*(shapely.get_coordinates(line) - (x, y)).T, color=colour, linewidth=1)
+        for stroke, is_long in zip(hatching.strokes, hatching.is_long, strict=True):
+            points = shapely.get_coordinates(stroke) - (x, y)
+            plot.plot(*points.T, color="black" if is_long else "0.5", linewidth=1)
+        plot.set_aspect("equal")
+        found = row.measures
+        plot.set_title(
+            f"{row.name}: spacing {found.spacing.min():.2f}–{found.spacing.max():.2f}, "
+            f"turn {found.turns.max(initial=0.0):.0f}°, gaps {found.top_gap:.2f} {found.toe_gap:.2f}"
+        )
+    figure.tight_layout()
+    path.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=50)
+    plt.close(figure)
+
+
+def main() -> int:
+    """Measure, write the page, draw the sheet."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=COUNT, help="random slopes")
+    parser.add_argument("--dry", action="store_true", help="print only")
+    options = parser.parse_args()
+    made = shapes()
+    drawn = random_slopes(options.count, SEED)
+    rows = hatched(made)
+    groups = [summary("the eleven shapes", rows)]
+    for kind in KINDS:
+        some = hatched([s for s in drawn if s.name.startswith(kind)], min_spacing=0.1)
+        groups.append(summary(f"random, {kind}", some))
+        rows += some
+    polish = hatched(real_polish())
+    dutch = [slope for slope in real_dutch() if isinstance(slope, Slope)]
+    groups += [summary("slopes of a Polish survey", polish)]
+    groups += [summary("Dutch slopes with a crest line", hatched(dutch))]
+    rivals = [summary("matching", evenly(made))]
+    for name, draw in RIVALS.items():
+        rivals.append(summary(name, [rival_row(name, slope, draw) for slope in made]))
+    open_ones = [s for s in drawn if not s.strip.is_closed]
+    rivals.append(summary("matching, random", evenly(open_ones)))
+    for name, draw in RIVALS.items():
+        found = []
+        for slope in open_ones:
+            try:
+                found.append(rival_row(name, slope, draw))
+            except (MidribError, ValueError):
+                continue
+        rivals.append(summary(f"{name}, random", found))
+    shaken = turned_by_noise([*made, *open_ones[:200]], 0.1)
+    text = page(groups, rivals, shaken, options.count)
+    print(text)
+    if not options.dry:
+        before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+        after = rest.partition(END)[2]
+        PAGE.write_text(f"{before}{BEGIN}\n{text}{END}{after}", encoding="utf-8")
+        write_json(
+            ROOT / "benchmarks" / "results" / "hatching.json", {"groups": groups, "rivals": rivals}
+        )
+    worst_sheet(rows + polish, ROOT / "out" / "hatching.png")
+    return 0
+
+
+def page(groups: list[list[str]], rivals: list[list[str]], shaken: Floats, count: int) -> str:
+    """Figures as text."""
+    fast = [speed(n, gap) for n, gap in ((1600, 5.0), (1600, 2.0), (12_800, 5.0))]
+    rates = [strokes / seconds for strokes, seconds in fast]
+    return (
+        f"\nWritten by `python benchmarks/hatching.py`; random slopes have the seeds {SEED} to "
+        f"{SEED + count - 1}.\n\n{markdown(HEAD, groups)}\n"
+        "With one gap for the whole slope, half its mean width, beside rivals:\n\n"
+        f"{markdown(HEAD, rivals)}\n"
+        f"Noise of a tenth of the width on the top turns the strokes of {len(shaken)} slopes by "
+        f"{np.median(shaken):.1f}° at most in half of them, by {np.percentile(shaken, 95):.1f}° in "
+        f"19 of 20, by {shaken.max():.1f}° in the worst.\n\n"
+        f"One core draws {rates[0]:,.0f} strokes a second on edges of 1,600 vertices "
+        f"({fast[0][0]:,} strokes), {rates[1]:,.0f} if there are {fast[1][0]:,}, and "
+        f"{rates[2]:,.0f} on edges of 12,800 ({fast[2][0]:,} strokes), triangulation and middle "
+        f"line included ({machine_text()}).\n"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
