@@ -102,6 +102,8 @@ def test_a_line_that_leaves_the_boundary_is_refused_with_the_place() -> None:
         edges_along(AREA, line)
     assert refused.value.where is not None
     assert refused.value.where.coords[0] == (4.0, 1.0)
+    with pytest.raises(SlopeError, match="off the boundary"):
+        edges_along(AREA, LineString([(0, 0), (10, 2)]))
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -191,7 +191,9 @@ def pieces(element: etree._Element, system: System) -> Iterator["Floats"]:
         yield rows(text.replace(",", " "), len(text.split()[0].split(",")), system)
     elif name in ROUND:
         points = np.concatenate([run for one in element for run in pieces(one, system)])
-        yield along_arcs(np.vstack([points, points[:1]]) if name == "Circle" else points)
+        yield along_arcs(points)
+        if name == "Circle" and len(points) == 3:  # and on from its last point to its first
+            yield arc(points[2], points[0], points[1])[0]
     else:
         runs = [run for one in element for run in pieces(one, system)]
         is_reversed = name == "OrientableCurve" and element.get("orientation") == "-"

@@ -102,11 +102,12 @@ def edges_along(area: Polygon, line: LineString) -> Edges:
     rings, near = rings_of(area), NEAR * mean_width(area)
     points = shapely.get_coordinates(line)
     first, doubts = placed(rings, points[0], near, "the top's start")
-    off = shapely.distance(shapely.points(points), LineString(rings[first.ring]))
+    along = shapely.get_coordinates(shapely.segmentize(line, near))
+    off = shapely.distance(shapely.points(along), LineString(rings[first.ring]))
     worst = int(np.argmax(off))
     if off[worst] > near:
         msg = f"the top is {off[worst]:.3g} off the boundary, expected {near:.3g} at most"
-        raise SlopeError(msg, points[worst])
+        raise SlopeError(msg, along[worst])
     ring = rings[first.ring]
     last, more = placed([ring], points[-1], near, "the top's end")
     doubts += more
