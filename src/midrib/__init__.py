@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.formats.slopes import Slope, read_slopes
     from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
 
@@ -21,6 +22,7 @@ __all__ = [
     "Joint",
     "Problem",
     "Profile",
+    "Slope",
     "SpaceCurve",
     "Strip",
     "add_widths",
@@ -30,6 +32,7 @@ __all__ = [
     "minimal_radii",
     "minimal_radii_3d",
     "profile",
+    "read_slopes",
     "split",
 ]
 
@@ -38,6 +41,7 @@ HOME = {
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
+    "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
@@ -46,6 +50,7 @@ HOME = {
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
     "profile": "midrib.profiles",
+    "read_slopes": "midrib.formats.slopes",
     "split": "midrib.strip",
 }
 

@@ -12,7 +12,13 @@ import pytest
 
 import midrib
 
-PAGES = {"midrib": [], "collapse": ["collapse"], "methods": ["methods"], "profile": ["profile"]}
+PAGES = {
+    "midrib": [],
+    "check": ["check"],
+    "collapse": ["collapse"],
+    "methods": ["methods"],
+    "profile": ["profile"],
+}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")
 
 

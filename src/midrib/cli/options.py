@@ -18,9 +18,13 @@ __all__ = [
     "ChannelOption",
     "Connect",
     "Count",
+    "End",
     "EndClearance",
     "EndRule",
     "EndsOption",
+    "FindingsFigure",
+    "FindingsOut",
+    "History",
     "Holes",
     "HolesOption",
     "Identifier",
@@ -35,14 +39,21 @@ __all__ = [
     "Overwrite",
     "Percent",
     "Quiet",
+    "Scale",
     "Simplify",
+    "SlopesIn",
     "Smooth",
     "Source",
     "Spacing",
+    "Standard",
+    "Start",
     "StationSpacing",
+    "Strokes",
     "TableFigure",
     "TableOut",
+    "Toe",
     "Tolerance",
+    "Top",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -99,6 +110,7 @@ class WidthPlace(StrEnum):
 argument = partial(typer.Argument, show_default=False)
 of_layers = partial(typer.Option, rich_help_panel="Which features")
 of_table = partial(typer.Option, rich_help_panel="What the table holds")
+of_check = partial(typer.Option, rich_help_panel="What is checked")
 of_line = partial(typer.Option, rich_help_panel="How the line is made")
 of_care = partial(typer.Option, rich_help_panel="After-care")
 of_output = partial(typer.Option, rich_help_panel="Output")
@@ -134,6 +146,57 @@ Main: TypeAlias = Annotated[
         "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
     ),
 ]
+
+# Which slopes
+
+SlopesIn: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="IN",
+        help="Register of slopes: BDOT500 or BGT (.gml), a drawing (.dxf), or any vector file with "
+        "areas and what tells their tops.",
+    ),
+]
+Top: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER[:ID]|FIELD",
+        help="Lines along the tops: a layer of IN, matched by place or by a common field ID; or a "
+        "field with WKT. Of a drawing: its layers, with wildcards.",
+    ),
+]
+Toe: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER",
+        help="Lines along the toes, where IN has lines and no areas; --top is a layer then too.",
+    ),
+]
+Start: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="X,Y|LAYER:ID",
+        help="Where the tops start, in the order the rings are stored in: two fields, or a layer "
+        "of points with a common field ID.",
+    ),
+]
+End: TypeAlias = Annotated[
+    str | None, of_layers(metavar="X,Y|LAYER:ID", help="Where the tops end, likewise.")
+]
+History: TypeAlias = Annotated[
+    bool, of_layers("--history", metavar="", help="Objects too that have ended.")
+]
+
+# What is checked
+
+Strokes: TypeAlias = Annotated[
+    str | None,
+    of_check(metavar="LAYER|FILE", help="Strokes that are drawn already: do any cross?"),
+]
+Standard: TypeAlias = Annotated[
+    str, of_check(metavar="NAME", help="How the slopes would be hatched.")
+]
+Scale: TypeAlias = Annotated[float, of_check(metavar="N", min=1.0, help="Scale of the map, 1 : N.")]
 
 # What the table holds
 
@@ -280,6 +343,21 @@ LineFigure: TypeAlias = Annotated[
 TableFigure: TypeAlias = Annotated[
     Path | None,
     of_output("--figure", metavar="FILE", help="Plot width against station too: .svg .png .pdf"),
+]
+FindingsOut: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--out",
+        "-o",
+        metavar="FILE",
+        help="Write the table too: .csv plain; .geojson .gpkg .parquet … with places as points.",
+    ),
+]
+FindingsFigure: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--figure", metavar="FILE", help="Draw slopes and places of findings too: .svg .png .pdf"
+    ),
 ]
 Overwrite: TypeAlias = Annotated[bool, of_output("--overwrite", metavar="", help="Replace files.")]
 Quiet: TypeAlias = Annotated[

@@ -150,9 +150,15 @@ def add_batch(
         with found.refusing(identifier):
             if not told or isinstance(told, str):
                 msg = str(told or "it has no top")
-                raise SlopeError(msg)
+                raise SlopeError(msg, place_of(geometry))
             parts = [*shapely.get_parts(geometry)] if geometry else [check_area(geometry)]
             found.add_sides(identifier, parts, told, maker(source, said))
+
+
+def place_of(geometry: object) -> "Floats | None":
+    """First point of a geometry, None if it has none."""
+    points = shapely.get_coordinates(geometry)
+    return points[0] if len(points) else None
 
 
 def maker(source: "Source", said: dict[str, object]) -> "Callable[[str, Polygon, Edges], Slope]":
