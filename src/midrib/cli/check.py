@@ -24,6 +24,7 @@ def check(
     quiet: cli.Quiet = False,
 ) -> None:
     """Check slopes before they are hatched: a table of what is wrong with them, and where."""
+    from midrib import interrupts
     from midrib.cli.findings import Places, drawn_strokes, metres_per_unit, print_findings
     from midrib.cli.report import Report
     from midrib.formats.slopes import read_slopes
@@ -35,6 +36,8 @@ def check(
     slopes, problems = read_slopes(
         source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
     )
+    report.announce()
+    interrupts.start_work()
     findings = check_slopes(
         slopes,
         problems,

@@ -50,13 +50,18 @@ class Report:
     def start(self) -> None:
         """Load the kernels, and tell where that takes long; time counts from now on."""
         from midrib.curves.collapse import collapse
+
+        self.announce()
+        collapse(WARM_UP)
+        interrupts.start_work()
+        self.started = time.perf_counter()
+
+    def announce(self) -> None:
+        """Tell that kernels are compiled, if they are not there yet."""
         from midrib.kernels.jit import cache_folder
 
         if next(cache_folder().rglob("*.nbi"), None) is None:
             self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
-        collapse(WARM_UP)
-        interrupts.start_work()
-        self.started = time.perf_counter()
 
     def track(self, batches: Iterable["Batch"], count: int | None) -> Iterator["Batch"]:
         """Show a progress bar while batches are worked on, if there is a terminal."""

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 from shapely import Point
 
+from midrib import interrupts
 from midrib.errors import InvalidAreaError
 from midrib.hatching.slope import Slope, SlopeProblem
 
@@ -94,6 +95,7 @@ def check_slopes(
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
     hatch = engine()
     for slope in slopes:
+        interrupts.check()
         found += [*heights(slope), *boundary(slope), *lengths(slope)]
         if hatch is not None:
             found += matching(slope, hatch, standard, scale, metres_per_unit)
