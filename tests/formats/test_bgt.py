@@ -63,17 +63,18 @@ def test_parts_that_do_not_slope_are_passed_over(tmp_path: Path) -> None:
     path = written(
         tmp_path / "a.gml",
         part("flat", "false", NIL),
+        part("crested", "false", crest(CREST)),
         part("old", "true", crest(CREST), ended),
         part("bare", "true", NIL),
         part("across", "true", crest("140020 466002 140000 466002")),
         part("good", "true", crest(CREST)),
     )
     slopes, problems = read_slopes(path)
-    assert [slope.id for slope in slopes] == ["good"]
+    assert [slope.id for slope in slopes] == ["crested", "good"]
     assert [problem.id for problem in problems] == ["bare", "across"]
     assert problems[0].reason == "it lies on a slope, but has no crest line"
     assert "off the boundary" in problems[1].reason
-    assert [slope.id for slope in read_slopes(path, history=True)[0]] == ["old", "good"]
+    assert [slope.id for slope in read_slopes(path, history=True)[0]] == ["crested", "old", "good"]
 
 
 def test_arcs_of_the_boundary_become_chords(tmp_path: Path) -> None:

@@ -71,7 +71,7 @@ def namespaces(path: Path) -> list[str]:
 
 
 def features(path: Path) -> Iterator[etree._Element]:
-    """Features of a collection in turn; each is empty once the next one is asked for.
+    """Features of a collection in turn; those before the one at hand are dropped.
 
     Raises
     ------
@@ -92,7 +92,6 @@ def features(path: Path) -> Iterator[etree._Element]:
                         root.set("srsName", member.get("srsName"))
                     continue
                 yield from member.iterchildren(tag=etree.Element)
-                member.clear()
                 while member.getprevious() is not None:
                     del member.getparent()[0]
         except etree.XMLSyntaxError as error:

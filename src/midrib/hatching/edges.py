@@ -193,18 +193,18 @@ def placed(
 
 
 def place_on(ring: "Floats", number: int, point: "Floats", near: float) -> Place:
-    """Find the nearest vertex of a ring if it is near a point, else the nearest place."""
+    """Find the place of a ring where a point is; off the ring the nearest vertex, if it is near."""
     corners, p = ring[:-1, :2], point[:2]
     from_corners = np.hypot(*(corners - p).T)
-    k = int(np.argmin(from_corners))
-    if from_corners[k] <= near:
-        return Place(number, k, 0.0, float(from_corners[k]))
+    corner = int(np.argmin(from_corners))
+    at_corner = Place(number, corner, 0.0, float(from_corners[corner]))
     along = ring[1:, :2] - corners
     share = np.clip(((p - corners) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
     off = np.hypot(*(corners + share[:, None] * along - p).T)
     k = int(np.argmin(off))
-    if share[k] == 1.0:
-        return Place(number, (k + 1) % len(corners), 0.0, float(off[k]))
+    on_ring = ROUNDING * float(np.ptp(corners, axis=0).max())
+    if at_corner.off <= (near if off[k] > on_ring else on_ring):
+        return at_corner
     return Place(number, k, float(share[k]), float(off[k]))
 
 
