@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.formats.slopes import Slope, read_slopes
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
@@ -24,6 +25,7 @@ __all__ = [
     "Joint",
     "Problem",
     "Profile",
+    "Slope",
     "SpaceCurve",
     "Standard",
     "Strip",
@@ -35,6 +37,7 @@ __all__ = [
     "minimal_radii",
     "minimal_radii_3d",
     "profile",
+    "read_slopes",
     "split",
     "standard",
     "standards",
@@ -46,6 +49,7 @@ HOME = {
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
+    "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
     "Standard": "midrib.hatching.standards",
     "Strip": "midrib.strip",
@@ -56,6 +60,7 @@ HOME = {
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
     "profile": "midrib.profiles",
+    "read_slopes": "midrib.formats.slopes",
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",

@@ -43,6 +43,7 @@ INPUTS: dict[str, tuple[list[str | None], int, int]] = {
 }
 TWICE: list[list[str | None]] = [[BOW_TIE], []]  # a run that refuses one, and one that does not
 COMMANDS = {
+    "check": ["check", "IN", "-o", "OUT", "--top", "name", "--quiet"],
     "collapse": ["collapse", "IN", "OUT", "--quiet"],
     "methods": ["methods"],
     "profile": ["profile", "IN", "OUT", "--quiet"],
@@ -72,6 +73,10 @@ def test_commands_write_whole_files(
         return
     if case == "empty" and ending == "geojson":
         assert outcome.code in {0, 2}  # a GeoJSON file of nothing does not say what it is of
+        return
+    if command == "check":  # a field that has no tops in it
+        assert outcome.code == (1 if areas else 0), outcome.err
+        assert read_all(out)[1]["check"].to_pylist() == ["refused"] * len(areas)
         return
     assert outcome.code == (1 if n_refused else 0), outcome.err
     assert (outcome.out, outcome.err) == ("", "")

@@ -255,9 +255,8 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
 
 
 def test_entities_are_not_resolved(tmp_path: Path) -> None:
-    path = collection(
-        tmp_path / "a.gml", BDOT_2015, earthwork("&file;", SLOPE, CORNERS[0], CORNERS[1])
-    )
+    feature = earthwork("a", SLOPE, CORNERS[0], CORNERS[1], kind="&file;")
+    path = collection(tmp_path / "a.gml", BDOT_2015, feature)
     secret = tmp_path / "secret.txt"
     secret.write_text("secret")
     declared = f'<!DOCTYPE x [<!ENTITY file SYSTEM "{secret.as_uri()}">]><gml:FeatureCollection'

@@ -76,6 +76,18 @@ def test_two_places_of_one_segment_run_on_or_all_round() -> None:
     assert back.toe.equals(onwards.top)
 
 
+def test_a_start_on_the_boundary_stays_there_and_one_beside_it_goes_to_the_vertex() -> None:
+    top, _, (doubt,) = edges_between(AREA, np.array([0.1, 0.0]), at(AREA, 2))
+    assert top.coords[0] == (0.1, 0.0)
+    assert doubt.kind == "orientation"
+    top, _, (doubt,) = edges_between(AREA, np.array([0.1, 0.01]), at(AREA, 2))
+    assert top.coords[0] == (0.0, 0.0)
+    assert doubt.kind == "off-ring"
+    top, _, doubts = edges_between(AREA, np.array([1e-10, 0.0]), at(AREA, 2))
+    assert top.coords[0] == (0.0, 0.0)
+    assert not doubts
+
+
 @pytest.mark.parametrize(("off", "kind"), [(0.5, "off-ring"), (0.001, "off-ring")])
 def test_a_start_beside_a_vertex_means_that_vertex(off: float, kind: str) -> None:
     area = shapely.affinity.scale(AREA, 10.0, 10.0, origin=(0, 0))
@@ -102,6 +114,8 @@ def test_a_line_that_leaves_the_boundary_is_refused_with_the_place() -> None:
         edges_along(AREA, line)
     assert refused.value.where is not None
     assert refused.value.where.coords[0] == (4.0, 1.0)
+    with pytest.raises(SlopeError, match="off the boundary"):
+        edges_along(AREA, LineString([(0, 0), (10, 2)]))
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -5,6 +5,7 @@ from typing import Annotated
 import typer
 
 from midrib import __version__
+from midrib.cli.check import check
 from midrib.cli.collapse import collapse
 from midrib.cli.hatch import hatch
 from midrib.cli.profile import profile
@@ -41,6 +42,17 @@ app.command(
     epilog="Examples:\n\nmidrib profile rivers.gpkg widths.csv --spacing 10m --id name\n\n"
     "midrib profile rivers.gpkg stations.gpkg --figure widths.svg",
 )(profile)
+app.command(
+    help="Check slopes before they are hatched: a table of what is wrong with them, and where.\n\n"
+    "refused: no slope, for want of a top, an area or good coordinates; swapped: the top is lower "
+    "than the toe, by known heights; off-ring: an edge, its start or its end is off the boundary; "
+    "orientation: doubtful which edge is the top; unmatched: no strokes lead from top to toe in "
+    "some place; crossing: strokes of --strokes cross or lie on each other.\n\n"
+    "Exit code 0: nothing found; 1: something found; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib check BDOT500.gml -o findings.gpkg --figure findings.svg\n\n"
+    "midrib check slopes.gpkg --layer slope --top crest:slope_id --strokes hatching\n\n"
+    "midrib check map.dxf --top SLOPE_TOP --toe SLOPE_TOE",
+)(check)
 app.command(
     help="Hatch slopes at map scale: strokes from top to toe that never cross, as a standard has "
     "them; and draw walls, stairs and conveyors.\n\n"

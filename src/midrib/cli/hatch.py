@@ -22,10 +22,10 @@ MOST_LISTED = 10  # problems told on the terminal
 
 
 def hatch(
-    source: cli.SlopeSource,
+    source: cli.SlopesIn,
     out: cli.DrawingOut,
     standard: cli.StandardName = "pl-2021",
-    scale: cli.Scale = 500.0,
+    scale: cli.MapScale = 500.0,
     symbol: cli.Symbol = None,
     symbol_width: cli.SymbolWidth = None,
     stroke_width: cli.StrokeWidth = None,
@@ -36,17 +36,17 @@ def hatch(
     pattern: cli.Pattern = None,
     short_ratio: cli.ShortRatio = None,
     min_length: cli.LeastLength = None,
-    start: cli.From = StartSide.left,
+    from_side: cli.From = StartSide.left,
     offset: cli.Offset = 1.0,
     first: cli.First = None,
     end_strokes: cli.EndStrokes = False,
     stiffness: cli.Stiffness = None,
     rule: cli.RuleOption = DrawingRule.matching,
-    layer: cli.SlopeLayer = None,
+    layer: cli.Layer = None,
     top: cli.Top = None,
     toe: cli.Toe = None,
-    top_start: cli.TopStart = None,
-    top_end: cli.TopEnd = None,
+    start: cli.Start = None,
+    end: cli.End = None,
     exclude: cli.Exclude = None,
     history: cli.History = False,
     paper: cli.PaperSize = None,
@@ -73,12 +73,12 @@ def hatch(
     options = given(
         min_length=min_length, first=first and first.value, stiffness=stiffness, offset=offset
     )
-    options |= {"start": start.value, "end_strokes": end_strokes, "rule": rule.value}
+    options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values)
     slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=top_start, end=top_end, history=history
+        source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
     )
     if exclude is not None:
         options["exclude"] = zones_in(exclude)

@@ -20,12 +20,15 @@ __all__ = [
     "Count",
     "DrawingOut",
     "DrawingRule",
+    "End",
     "EndClearance",
     "EndRule",
     "EndStrokes",
     "EndsOption",
     "Exclude",
     "Factor",
+    "FindingsFigure",
+    "FindingsOut",
     "First",
     "From",
     "Gap",
@@ -41,6 +44,7 @@ __all__ = [
     "LineFigure",
     "LinesOut",
     "Main",
+    "MapScale",
     "Mean",
     "MeanOption",
     "Method",
@@ -55,16 +59,18 @@ __all__ = [
     "Scale",
     "ShortRatio",
     "Simplify",
-    "SlopeLayer",
-    "SlopeSource",
+    "SlopesIn",
     "Smooth",
     "Source",
     "Spacing",
+    "Standard",
     "StandardName",
+    "Start",
     "StartSide",
     "StationSpacing",
     "Stiffness",
     "StrokeWidth",
+    "Strokes",
     "Symbol",
     "SymbolWidth",
     "TableFigure",
@@ -72,8 +78,6 @@ __all__ = [
     "Toe",
     "Tolerance",
     "Top",
-    "TopEnd",
-    "TopStart",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -153,6 +157,8 @@ class DrawingRule(StrEnum):
 argument = partial(typer.Argument, show_default=False)
 of_layers = partial(typer.Option, rich_help_panel="Which features")
 of_table = partial(typer.Option, rich_help_panel="What the table holds")
+of_check = partial(typer.Option, rich_help_panel="What is checked")
+of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, lengths in mm on paper")
 of_line = partial(typer.Option, rich_help_panel="How the line is made")
 of_care = partial(typer.Option, rich_help_panel="After-care")
 of_output = partial(typer.Option, rich_help_panel="Output")
@@ -188,6 +194,62 @@ Main: TypeAlias = Annotated[
         "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
     ),
 ]
+
+# Which slopes
+
+SlopesIn: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="IN",
+        help="Register of slopes: BDOT500 or BGT (.gml), a drawing (.dxf), or any vector file with "
+        "areas and what tells their tops.",
+    ),
+]
+Top: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER[:ID]|FIELD",
+        help="Lines along the tops: a layer of IN, matched by place or by a common field ID; or a "
+        "field with WKT. Of a drawing: its layers, with wildcards.",
+    ),
+]
+Toe: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER",
+        help="Lines along the toes, where IN has lines and no areas; --top is a layer then too.",
+    ),
+]
+Start: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="X,Y|LAYER:ID",
+        help="Where the tops start, in the order the rings are stored in: two fields, or a layer "
+        "of points with a common field ID.",
+    ),
+]
+End: TypeAlias = Annotated[
+    str | None, of_layers(metavar="X,Y|LAYER:ID", help="Where the tops end, likewise.")
+]
+History: TypeAlias = Annotated[
+    bool, of_layers("--history", metavar="", help="Objects too that have ended.")
+]
+
+Exclude: TypeAlias = Annotated[
+    Path | None,
+    of_layers("--exclude", metavar="FILE", help="Vector file with areas that no stroke may enter."),
+]
+
+# What is checked
+
+Strokes: TypeAlias = Annotated[
+    str | None,
+    of_check(metavar="LAYER|FILE", help="Strokes that are drawn already: do any cross?"),
+]
+Standard: TypeAlias = Annotated[
+    str, of_check(metavar="NAME", help="How the slopes would be hatched.")
+]
+Scale: TypeAlias = Annotated[float, of_check(metavar="N", min=1.0, help="Scale of the map, 1 : N.")]
 
 # What the table holds
 
@@ -313,57 +375,6 @@ Smooth: TypeAlias = Annotated[
     ),
 ]
 
-# Which slopes
-
-of_slopes = partial(typer.Option, rich_help_panel="Which slopes")
-of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, lengths in mm on paper")
-
-SlopeSource: TypeAlias = Annotated[
-    Path,
-    argument(
-        metavar="IN",
-        help="Register of slopes: BDOT500 or BGT as .gml, a .dxf with tops and toes, or a vector "
-        "file with areas and something that tells their tops.",
-    ),
-]
-DrawingOut: TypeAlias = Annotated[
-    Path,
-    argument(
-        metavar="OUT",
-        help="File for the drawing; its ending chooses the format: .gpkg with a style for QGIS, "
-        ".dxf, .svg and .pdf to scale, .gml for KR_ObiektKarto of BDOT500, .geojson .shp …",
-    ),
-]
-SlopeLayer: TypeAlias = Annotated[
-    str | None, of_slopes(metavar="NAME", help="Layer of IN; needed if several could be meant.")
-]
-Top: TypeAlias = Annotated[
-    str | None,
-    of_slopes(
-        metavar="LAYER[:ID]|FIELD",
-        help="Lines along the tops: a layer of IN, matched by place or by a common field ID; or "
-        "a field with WKT. Of a .dxf: its layer of tops.",
-    ),
-]
-Toe: TypeAlias = Annotated[
-    str | None,
-    of_slopes(metavar="LAYER", help="Lines along the toes, where there are no areas."),
-]
-TopStart: TypeAlias = Annotated[
-    str | None,
-    of_slopes(metavar="X,Y|LAYER:ID", help="Where tops start: two fields, or a layer of points."),
-]
-TopEnd: TypeAlias = Annotated[
-    str | None, of_slopes(metavar="X,Y|LAYER:ID", help="Where tops end, likewise.")
-]
-Exclude: TypeAlias = Annotated[
-    Path | None,
-    of_slopes("--exclude", metavar="FILE", help="Vector file with areas that no stroke may enter."),
-]
-History: TypeAlias = Annotated[
-    bool, of_slopes("--history", metavar="", help="Draw objects too that have ended.")
-]
-
 # How strokes are made
 
 StandardName: TypeAlias = Annotated[
@@ -374,7 +385,7 @@ StandardName: TypeAlias = Annotated[
         "the one made for its kind), or a .toml file of your own.",
     ),
 ]
-Scale: TypeAlias = Annotated[float, of_strokes(metavar="N", help="Of the map: 500 for 1:500.")]
+MapScale: TypeAlias = Annotated[float, of_strokes(metavar="N", help="Of the map: 500 for 1:500.")]
 Symbol: TypeAlias = Annotated[
     str | None,
     of_strokes(
@@ -436,6 +447,14 @@ RuleOption: TypeAlias = Annotated[
 
 # Output
 
+DrawingOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the drawing; its ending chooses the format: .gpkg with a style for QGIS, "
+        ".dxf, .svg and .pdf to scale, .gml for KR_ObiektKarto of BDOT500, .geojson .shp …",
+    ),
+]
 PaperSize: TypeAlias = Annotated[
     str | None,
     of_output(
@@ -463,6 +482,21 @@ LineFigure: TypeAlias = Annotated[
 TableFigure: TypeAlias = Annotated[
     Path | None,
     of_output("--figure", metavar="FILE", help="Plot width against station too: .svg .png .pdf"),
+]
+FindingsOut: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--out",
+        "-o",
+        metavar="FILE",
+        help="Write the table too: .csv plain; .geojson .gpkg .parquet … with places as points.",
+    ),
+]
+FindingsFigure: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--figure", metavar="FILE", help="Draw slopes and places of findings too: .svg .png .pdf"
+    ),
 ]
 Overwrite: TypeAlias = Annotated[bool, of_output("--overwrite", metavar="", help="Replace files.")]
 Quiet: TypeAlias = Annotated[

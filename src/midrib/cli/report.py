@@ -62,13 +62,17 @@ class Report:
 
     def start(self, work: Callable[[], Any] = warm_up) -> None:
         """Load the kernels by some work, and tell where that takes long; time counts from now."""
+        self.announce()
+        work()
+        interrupts.start_work()
+        self.started = time.perf_counter()
+
+    def announce(self) -> None:
+        """Tell that kernels are compiled, if they are not there yet."""
         from midrib.kernels.jit import cache_folder
 
         if next(cache_folder().rglob("*.nbi"), None) is None:
             self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
-        work()
-        interrupts.start_work()
-        self.started = time.perf_counter()
 
     def track(
         self,

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 from shapely import LineString, Polygon
 
 from midrib.formats import gml
@@ -102,7 +103,7 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
         if gml.local(feature) in SLOPES:
             wanted = "a polygon" if tops else f"{TOPS[0][0]} and {TOPS[0][1]}, or {ALONG}"
             msg = f"it has no {'area' if tops else 'top'}, expected {wanted}"
-            raise SlopeError(msg)
+            raise SlopeError(msg, shapely.get_coordinates(areas)[0] if areas else None)
         return
     model = "2015" if feature.tag.startswith(f"{{{MODEL_2015}") else "2021"
     name, said = gml.local(feature), {"gml_id": gml.identifier(feature)} | gml.leaves(feature)

@@ -11,6 +11,8 @@ slopes are made of: all are of the kind ``slope-unreinforced``.
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from midrib.formats import gml
 from midrib.formats.gathering import Gathered
 from midrib.hatching.slope import Slope, SlopeError, SlopeProblem
@@ -54,14 +56,14 @@ def add_slope(found: Gathered, feature: "_Element") -> None:
     on_slope = next((e for e in feature if gml.local(e).endswith(ON_SLOPE)), None)
     if not crests and (on_slope is None or on_slope.text != "true"):
         return
-    lines = [line for e in crests if (line := gml.line_in(e)) is not None]
-    if not lines:
-        msg = "it lies on a slope, but has no crest line"
-        raise SlopeError(msg)
     areas = [a for e in feature if gml.local(e).startswith(AREA) for a in gml.areas_in(e)]
     if not areas:
         msg = "it has no area, expected a polygon"
         raise SlopeError(msg)
+    lines = [line for e in crests if (line := gml.line_in(e)) is not None]
+    if not lines:
+        msg = "it lies on a slope, but has no crest line"
+        raise SlopeError(msg, np.array(areas[0].exterior.coords[0]))
     said = {"gml_id": gml.identifier(feature)} | gml.leaves(feature)
     crs = gml.system_in(feature).crs
 

@@ -26,6 +26,7 @@ __all__ = ["read_cad"]
 
 KINDS = "LINE LWPOLYLINE POLYLINE ARC CIRCLE ELLIPSE SPLINE"
 DEVIATION = 1e-4  # of the size of a curve: what a chord is off it at most
+SPANS = 16  # Bézier curves of a circle: they are 1e-7 of the radius off it
 TOPS = ("*gora*", "*góra*", "*top*", "*crest*", "*kruin*", "*oberkante*")
 TOES = ("*dol*", "*dół*", "*toe*", "*bottom*", "*voet*", "*teen*", "*unterkante*")
 
@@ -89,7 +90,7 @@ def pieces(drawing: "Drawing", layers: set[str]) -> Iterator[LineString]:
 
     for entity in drawing.modelspace().query(KINDS):
         if entity.dxf.layer in layers:
-            path = make_path(entity)
+            path = make_path(entity, segments=SPANS)
             corners = np.array([tuple(v) for v in path.control_vertices()]).reshape(-1, 3)
             size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
             if size > 0.0:

@@ -71,7 +71,7 @@ def namespaces(path: Path) -> list[str]:
 
 
 def features(path: Path) -> Iterator[etree._Element]:
-    """Features of a collection in turn; each is empty once the next one is asked for.
+    """Features of a collection in turn; those before the one at hand are dropped.
 
     Raises
     ------
@@ -92,7 +92,6 @@ def features(path: Path) -> Iterator[etree._Element]:
                         root.set("srsName", member.get("srsName"))
                     continue
                 yield from member.iterchildren(tag=etree.Element)
-                member.clear()
                 while member.getprevious() is not None:
                     del member.getparent()[0]
         except etree.XMLSyntaxError as error:
@@ -191,7 +190,9 @@ def pieces(element: etree._Element, system: System) -> Iterator["Floats"]:
         yield rows(text.replace(",", " "), len(text.split()[0].split(",")), system)
     elif name in ROUND:
         points = np.concatenate([run for one in element for run in pieces(one, system)])
-        yield along_arcs(np.vstack([points, points[:1]]) if name == "Circle" else points)
+        yield along_arcs(points)
+        if name == "Circle" and len(points) == 3:  # and on from its last point to its first
+            yield arc(points[2], points[0], points[1])[0]
     else:
         runs = [run for one in element for run in pieces(one, system)]
         is_reversed = name == "OrientableCurve" and element.get("orientation") == "-"

@@ -10,7 +10,7 @@ from shapely import LineString, Polygon
 
 from midrib.errors import ParameterError
 from midrib.formats.bdot500 import kind_of
-from midrib.formats.gathering import Gathered
+from midrib.formats.gathering import Gathered, check_area
 from midrib.formats.guides import guides_for
 from midrib.formats.pairs import add_pairs, joined
 from midrib.formats.reading import choose_layer, column_names, layer_names, listed, open_layer
@@ -150,9 +150,15 @@ def add_batch(
         with found.refusing(identifier):
             if not told or isinstance(told, str):
                 msg = str(told or "it has no top")
-                raise SlopeError(msg)
-            parts = [*shapely.get_parts(geometry)] if geometry else [geometry]
+                raise SlopeError(msg, place_of(geometry))
+            parts = [*shapely.get_parts(geometry)] if geometry else [check_area(geometry)]
             found.add_sides(identifier, parts, told, maker(source, said))
+
+
+def place_of(geometry: object) -> "Floats | None":
+    """First point of a geometry, None if it has none."""
+    points = shapely.get_coordinates(geometry)
+    return points[0] if len(points) else None
 
 
 def maker(source: "Source", said: dict[str, object]) -> "Callable[[str, Polygon, Edges], Slope]":

@@ -20,6 +20,8 @@ __all__ = ["add_pairs", "joined"]
 
 def joined(pieces: Sequence[LineString]) -> list[LineString]:
     """Lines that pieces make where just two of them meet, whichever way each runs."""
+    if not pieces:
+        return []
     merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(list(pieces))))
     return [line for line in merged if line.length > 0.0]
 

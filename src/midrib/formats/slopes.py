@@ -59,9 +59,10 @@ def read_slopes(
 
     Notes
     -----
-    Start and end need not be vertices: a vertex within a tenth of the mean width is taken, else the
-    nearest place of the boundary if that is as near. Both are listed as problems. A height of 0 is
-    taken for unknown. Heights are on an edge if they are within a 100th of the mean width of it.
+    Start and end need not be vertices. Off the boundary, a vertex within a tenth of the mean width
+    is taken, else the nearest place if that is as near. Either is listed as a problem. A height of
+    0 is unknown. Points of known height are on an edge if they are within a 100th of the mean width
+    of it. O(n) memory in the vertices of the slopes; GML is read one feature at a time.
     """
     path = Path(path)
     if not path.exists():

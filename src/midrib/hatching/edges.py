@@ -102,11 +102,12 @@ def edges_along(area: Polygon, line: LineString) -> Edges:
     rings, near = rings_of(area), NEAR * mean_width(area)
     points = shapely.get_coordinates(line)
     first, doubts = placed(rings, points[0], near, "the top's start")
-    off = shapely.distance(shapely.points(points), LineString(rings[first.ring]))
+    along = shapely.get_coordinates(shapely.segmentize(line, near))
+    off = shapely.distance(shapely.points(along), LineString(rings[first.ring]))
     worst = int(np.argmax(off))
     if off[worst] > near:
         msg = f"the top is {off[worst]:.3g} off the boundary, expected {near:.3g} at most"
-        raise SlopeError(msg, points[worst])
+        raise SlopeError(msg, along[worst])
     ring = rings[first.ring]
     last, more = placed([ring], points[-1], near, "the top's end")
     doubts += more
@@ -192,18 +193,18 @@ def placed(
 
 
 def place_on(ring: "Floats", number: int, point: "Floats", near: float) -> Place:
-    """Find the nearest vertex of a ring if it is near a point, else the nearest place."""
+    """Find the place of a ring where a point is; off the ring the nearest vertex, if it is near."""
     corners, p = ring[:-1, :2], point[:2]
     from_corners = np.hypot(*(corners - p).T)
-    k = int(np.argmin(from_corners))
-    if from_corners[k] <= near:
-        return Place(number, k, 0.0, float(from_corners[k]))
+    corner = int(np.argmin(from_corners))
+    at_corner = Place(number, corner, 0.0, float(from_corners[corner]))
     along = ring[1:, :2] - corners
     share = np.clip(((p - corners) * along).sum(axis=1) / (along**2).sum(axis=1), 0.0, 1.0)
     off = np.hypot(*(corners + share[:, None] * along - p).T)
     k = int(np.argmin(off))
-    if share[k] == 1.0:
-        return Place(number, (k + 1) % len(corners), 0.0, float(off[k]))
+    on_ring = ROUNDING * float(np.ptp(corners, axis=0).max())
+    if at_corner.off <= (near if off[k] > on_ring else on_ring):
+        return at_corner
     return Place(number, k, float(share[k]), float(off[k]))
 
 
