@@ -1,5 +1,7 @@
 """Standards: the presets that come with midrib, files of the user's, and what is wrong there."""
 
+import re
+import runpy
 from pathlib import Path
 from typing import Any
 
@@ -197,3 +199,11 @@ def test_unknown_names_and_values_are_refused() -> None:
 def test_public_names() -> None:
     assert midrib.standards is standards
     assert midrib.standard is standard
+
+
+def test_the_page_of_standards_is_as_the_tool_writes_it() -> None:
+    root = Path(__file__).parents[2]
+    page = runpy.run_path(str(root / "tools" / "standards.py"))["page"]()
+    assert (root / "docs" / "standards.md").read_text(encoding="utf-8") == page
+    for name in re.findall(r"\((pictures/.*?)\)", page):
+        assert (root / "docs" / name).exists()

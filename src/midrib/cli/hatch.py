@@ -128,7 +128,7 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     )
     report.say(f"written to {out}")
     if not drawing.objects and not drawing.problems:
-        report.say("note: IN has no slopes")
+        report.say("note: IN has no slopes; those that have ended come with --history")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
     for trouble in listed[:MOST_LISTED]:
         report.say(f"refused: {trouble.id}: {trouble.reason}")
