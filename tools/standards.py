@@ -42,9 +42,9 @@ replaced.
 SYMBOLS = """## Symbols
 
 Wedges, triangles, forks and heads are as wide as the standard says, narrower where the next stroke
-or the boundary is near: each has a room of its own, from its part of the top to the end of its
-stroke, and rooms do not overlap where strokes do not. The options `--symbol` and `--symbol-width`
-of `midrib hatch` draw any of them by any standard of strokes. Here they are 1.2 mm wide.
+or the boundary is near: each has a part of the top for itself, and its sides are inside the area,
+so symbols do not overlap where strokes do not. The options `--symbol` and `--symbol-width` of
+`midrib hatch` draw any of them by any standard of strokes. Here they are 1.2 mm wide.
 """
 OWN = """## A standard of your own
 

@@ -38,12 +38,16 @@ def chords(
     scale: float = 500.0,
     *,
     count: int = 9,
+    spread: float = 1.0,
     area: Polygon | None = None,
     short: float = 0.5,
 ) -> Chords:
-    """Chords between equal shares of top and toe, long and short in turn; closed ones go round."""
+    """Chords between equal shares of top and toe, long and short in turn; closed ones go round.
+
+    With ``spread`` above 1 they are dense at the start.
+    """
     is_ring = top.is_closed
-    shares = np.linspace(0.0, 1.0, count + is_ring)[:count]
+    shares = np.linspace(0.0, 1.0, count + is_ring)[:count] ** spread
     on_top, on_toe = (
         shapely.get_coordinates(line.interpolate(shares, normalized=True)) for line in (top, toe)
     )

@@ -50,8 +50,10 @@ def test_every_second_circle_is_tangent_to_both_edges(strip: Strip) -> None:
 
 
 @strips
-def test_circles_are_inside_and_do_not_overlap(strip: Strip) -> None:
-    middles, radius = circles_of(strip)
+@pytest.mark.parametrize("factor", [0.3, 0.6, 1.0])
+def test_circles_are_inside_and_do_not_overlap(strip: Strip, factor: float) -> None:
+    (placed,) = symbols_along(strip, standard("pl-2015-conveyor", factor=factor)).placed
+    middles, radius = placed.at, placed.size / 2.0
     assert (shapely.distance(shapely.points(middles), strip.area.boundary) >= radius - 1e-9).all()
     apart = np.hypot(*(middles[:, None] - middles).transpose(2, 0, 1))
     free = apart - radius[:, None] - radius

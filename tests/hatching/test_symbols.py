@@ -1,6 +1,7 @@
 """Symbols made of strokes: where they are, how large, and that they keep apart."""
 
 from collections.abc import Callable
+from functools import partial
 from itertools import combinations
 from typing import Any
 
@@ -20,6 +21,8 @@ Shape = Callable[..., Chords]
 WIDE = 1.2  # millimetres: 0.6 units at 1:500
 SHIFT = np.array([5e5, 5e6])
 SHAPES: dict[str, tuple[Shape, int]] = {
+    "dense_ring": (mound, 120),
+    "uneven": (partial(rectangle, spread=3.0), 40),
     "rectangle": (rectangle, 9),
     "mound": (mound, 40),
     "bend": (bend, 40),
@@ -134,6 +137,21 @@ def test_where_strokes_are_dense_symbols_are_narrow() -> None:
     found = symbols(rectangle(known, count=101))
     base = shapely.area(found.areas[2:-2:2]) / 3.0
     assert base == pytest.approx(0.9 * 0.2)  # nine tenths of what is between the middles of gaps
+
+
+def test_a_base_reaches_as_far_as_each_gap_lets_it() -> None:
+    known = standard("pl-2021-slope-unreinforced", symbol="wedge", symbol_width=2.0)
+    hatching = rectangle(known, count=12, spread=2.0)
+    x, found = hatching.on_top[:, 0], symbols(hatching)
+    room = np.concatenate([[0.0], 0.45 * np.diff(x), [0.0]])
+    low, _, high, _ = shapely.bounds(found.areas).T
+    assert x - low == pytest.approx(np.minimum(room[:-1], 0.5), abs=1e-6)
+    assert high - x == pytest.approx(np.minimum(room[1:], 0.5), abs=1e-6)
+
+
+def test_a_dense_ring_is_even_all_round() -> None:
+    bases = shapely.area(drawn("dense_ring", "wedge")[1].areas[::2])
+    assert bases == pytest.approx(bases.mean(), rel=0.02)
 
 
 def test_sizes_are_those_of_the_paper() -> None:

@@ -3,14 +3,16 @@ r"""Symbols: what is drawn of strokes. Lines, filled areas, and figures that sta
 b           base: from b[0] to b[1] along the top, symbol_width on paper, p in it
 p, q        ends of the whole stroke, on the top and on the toe
 e           end of the stroke: q, or a point on the way
-a           where the sides meet: the end, the tip of a triangle, the fork of a Y
+m           where the sides meet: the end, the tip of a triangle, the fork of a Y
 
-    b[0]--p--b[1]   top          The room of a stroke is b[0] q b[1] along the top. Bases have no
-      \   |   /                  point in common and the ends of strokes are in order, so rooms
-       \  a  /                   whose sides are inside the area do not overlap, as chords do not
-        \ | /                    cross. What is drawn is in the room, but for the head of a tadpole,
-          e                      which keeps off the whole strokes beside it.
-          q         toe
+    b[0]--p--b[1]   top      Symbols keep apart if bases have no point in common, sides are inside
+      \   |   /              the area, and whole strokes do not cross. A whole stroke beside it that
+       \  |  /               came in through a side could only leave through the base, the stroke
+        \ | /                or the same side, and none of them lets it. A side that came in would
+          m                  have to end on its own stroke, which is not in there.
+          |
+          e
+          q         toe      The head of a tadpole keeps off the whole strokes beside it.
 """
 
 from typing import TYPE_CHECKING, NamedTuple, Protocol
@@ -215,7 +217,7 @@ def largest(fits: "Callable[[Floats], Bools]", n: int) -> "Floats":
         share = np.where(good, share + step, share - step)
         share = np.where(best == 1.0, 1.0, share)
         good = fits(share)
-        best = np.where(good, np.maximum(best, share), best)
+        best = np.where(good, share, best)
     return best
 
 
@@ -236,15 +238,10 @@ def meets_at(strokes: Strokes, kinds: "NDArray[np.object_]", half: "Floats") -> 
 
 
 def bases_fit(strokes: Strokes, kinds: "NDArray[np.object_]", half: "Floats") -> "Bools":
-    """Whether the sides of symbols, and of their rooms, are inside the area."""
+    """Whether the sides of symbols are inside the area."""
     meeting = strokes.part(meets_at(strokes, kinds, half))
-    sides = [
-        np.stack([strokes.top.at(end), tip], axis=1)
-        for end in ends_of_bases(strokes, half)
-        for tip in (meeting, strokes.q)
-    ]
-    inside = shapely.covers(strokes.grown, shapely.linestrings(np.stack(sides)))
-    fit: Bools = inside.all(axis=0)
+    sides = [np.stack([strokes.top.at(b), meeting], axis=1) for b in ends_of_bases(strokes, half)]
+    fit: Bools = shapely.covers(strokes.grown, shapely.linestrings(np.stack(sides))).all(axis=0)
     return fit
 
 

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["check_standard", "draw_slopes", "try_out"]
 
-SAME = 1e-9  # relative: lengths that rounding has made different
-
 
 def draw_slopes(
     slopes: "Sequence[Slope]",
@@ -116,12 +114,11 @@ def draw_edges_once(drawing: Drawing) -> None:
     owner = [k for k, drawn in enumerate(drawing.objects) for _ in drawn.symbols.edges]
     tree = shapely.STRtree(edges)
     left: dict[int, list[LineString]] = {}
-    for i, edge in enumerate(edges):
-        before = [edges[j] for j in tree.query(edge, predicate="intersects") if j < i]
-        rest = shapely.difference(edge, shapely.union_all(before)) if before else edge
-        is_less = shapely.length(rest) < (1.0 - SAME) * shapely.length(edge)
-        rest = shapely.line_merge(rest) if is_less else edge  # crossings cut a line too
-        left.setdefault(owner[i], []).extend(shapely.get_parts(rest))
+    for i, whole in enumerate(edges):
+        before = [edges[j] for j in tree.query(whole, predicate="intersects") if j < i]
+        if before:  # a line that is only crossed is cut too, and put together again
+            rest = shapely.line_merge(shapely.difference(whole, shapely.union_all(before)))
+        left.setdefault(owner[i], []).extend(shapely.get_parts(rest if before else whole))
     for k, lines in left.items():
         drawn = drawing.objects[k]
         symbols = replace(drawn.symbols, edges=np.array([*lines, None], dtype=object)[:-1])
