@@ -39,6 +39,14 @@ arrangement (Fig. 13: middles on the axis, every second circle tangent to both e
 and water gates only that the axis can carry their symbols. Their templates are there to be
 replaced.
 """
+PYTHON = """## From Python
+
+```python
+slopes, problems = midrib.read_slopes("bdot500.gml")
+drawing = midrib.draw_slopes(slopes, "pl-2015", 500, problems=problems)
+midrib.write_drawing("map.pdf", drawing, paper="A3")
+```
+"""
 SYMBOLS = """## Symbols
 
 Wedges, triangles, forks and heads are as wide as the standard says, narrower where the next stroke
@@ -168,6 +176,7 @@ def page() -> str:
         SYMBOLS.rstrip("\n"),
         *symbols,
         OWN + "\n".join(keys),
+        PYTHON.rstrip("\n"),
     ]
     return "\n\n".join(sections) + "\n"
 

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.formats.drawing.slopes import draw_slopes
+    from midrib.formats.drawing.write import write_drawing
     from midrib.formats.slopes import Slope, read_slopes
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
@@ -31,6 +33,7 @@ __all__ = [
     "Strip",
     "add_widths",
     "collapse",
+    "draw_slopes",
     "hatch",
     "measures",
     "methods",
@@ -41,6 +44,7 @@ __all__ = [
     "split",
     "standard",
     "standards",
+    "write_drawing",
 ]
 
 HOME = {
@@ -55,6 +59,7 @@ HOME = {
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
     "collapse": "midrib.curves.collapse",
+    "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
@@ -64,6 +69,7 @@ HOME = {
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",
+    "write_drawing": "midrib.formats.drawing.write",
 }
 
 

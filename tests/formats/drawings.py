@@ -11,7 +11,7 @@ from midrib import Strip, standard
 from midrib.formats.drawing.content import Drawing, Drawn, Trouble
 from midrib.hatching.along import symbols_along
 from midrib.hatching.symbols import symbols
-from tests.hatching.standin import Chords, Sides, mound, rectangle
+from tests.hatching.standin import Sides, mound, rectangle
 
 EAST, NORTH = 6481500.0, 5616900.0
 IDENTIFIER: dict[str, object] = {
@@ -21,7 +21,7 @@ IDENTIFIER: dict[str, object] = {
 }
 
 
-def moved(hatching: Chords, x: float, y: float) -> Chords:
+def moved(hatching: Any, x: float, y: float) -> Any:
     """Chords in another place."""
     return hatching._replace(
         strokes=[translate(stroke, x, y) for stroke in hatching.strokes],
@@ -31,7 +31,7 @@ def moved(hatching: Chords, x: float, y: float) -> Chords:
     )
 
 
-def hatched(name: str, hatching: Chords, x: float, y: float, **values: Any) -> Drawn:
+def hatched(name: str, hatching: Any, x: float, y: float, **values: Any) -> Drawn:
     """Object with strokes."""
     there = moved(hatching._replace(standard=standard(hatching.standard, **values)), x, y)
     return Drawn(name, "slope-unreinforced", symbols(there), there.is_long, there.width, IDENTIFIER)

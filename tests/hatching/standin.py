@@ -41,7 +41,7 @@ def chords(
     spread: float = 1.0,
     area: Polygon | None = None,
     short: float = 0.5,
-) -> Chords:
+) -> Any:
     """Chords between equal shares of top and toe, long and short in turn; closed ones go round.
 
     With ``spread`` above 1 they are dense at the start.
@@ -67,14 +67,14 @@ def chords(
     )
 
 
-def rectangle(standard: Any, scale: float = 500.0, **options: Any) -> Chords:
+def rectangle(standard: Any, scale: float = 500.0, **options: Any) -> Any:
     """Slope of 20 by 6 units."""
     return chords(
         LineString([(0, 6), (20, 6)]), LineString([(0, 0), (20, 0)]), standard, scale, **options
     )
 
 
-def mound(standard: Any, scale: float = 500.0, **options: Any) -> Chords:
+def mound(standard: Any, scale: float = 500.0, **options: Any) -> Any:
     """Ring between two circles, its top inside."""
     angles = np.linspace(0.0, 2.0 * np.pi, 73)
     angles[-1] = 0.0
@@ -83,7 +83,7 @@ def mound(standard: Any, scale: float = 500.0, **options: Any) -> Chords:
     return chords(top, toe, standard, scale, area=Polygon(toe, [top.coords]), **options)
 
 
-def bend(standard: Any, scale: float = 500.0, **options: Any) -> Chords:
+def bend(standard: Any, scale: float = 500.0, **options: Any) -> Any:
     """Slope round a corner, noisy along its top, tilted strokes."""
     x = np.linspace(0.0, 12.0, 61)
     noise = 0.15 * np.sin(40.0 * x)

@@ -74,6 +74,16 @@ def test_circles_do_not_depend_on_the_scale_where_only_the_width_counts() -> Non
         assert here == pytest.approx(there)
 
 
+def test_tips_are_left_to_themselves() -> None:
+    x = np.linspace(0.0, 30.0, 31)
+    y = 1.5 * np.sin(np.pi * x / 30.0)
+    lens = Strip(LineString(np.column_stack([x, y])), LineString(np.column_stack([x, -y])))
+    middles, radius = circles_of(lens)
+    assert 2.0 * radius.min() >= 0.5 * 2.0 * 0.18 * 0.5  # half of two line widths, small circles
+    assert middles[:, 1] == pytest.approx(0.0, abs=1e-6)
+    assert len(middles) > 15
+
+
 def test_a_fixed_spacing_is_that_of_the_paper() -> None:
     known = standard("pl-2015-conveyor", spacing=10.0)  # 5 units at 1:500
     (placed,) = symbols_along(STRIPS["rectangle"], known).placed

@@ -15,9 +15,9 @@ from midrib.errors import ParameterError
 from midrib.hatching.drawn import Symbols
 from midrib.hatching.keys import STROKED
 from midrib.hatching.symbols import symbols
-from tests.hatching.standin import Chords, Sides, bend, mound, rectangle
+from tests.hatching.standin import Sides, bend, mound, rectangle
 
-Shape = Callable[..., Chords]
+Shape = Callable[..., Any]
 WIDE = 1.2  # millimetres: 0.6 units at 1:500
 SHIFT = np.array([5e5, 5e6])
 SHAPES: dict[str, tuple[Shape, int]] = {
@@ -31,7 +31,7 @@ shapes = pytest.mark.parametrize("shape", SHAPES)
 kinds = pytest.mark.parametrize("kind", STROKED)
 
 
-def drawn(shape: str, kind: str, **values: Any) -> tuple[Chords, Symbols]:
+def drawn(shape: str, kind: str, **values: Any) -> tuple[Any, Symbols]:
     """Chords of a shape and their symbols, wide ones."""
     make, count = SHAPES[shape]
     known = standard(
@@ -162,7 +162,7 @@ def test_sizes_are_those_of_the_paper() -> None:
     assert shapely.area(feet) == pytest.approx(shapely.area(at_500) / 0.3048)
 
 
-def moved(hatching: Chords, move: Callable[[Any], Any]) -> Chords:
+def moved(hatching: Any, move: Callable[[Any], Any]) -> Any:
     """Chords with all geometries moved."""
     points = [
         shapely.get_coordinates([move(p) for p in shapely.points(xy)])

@@ -119,6 +119,7 @@ def zones_in(path: "Path") -> list["Polygon | MultiPolygon"]:
 def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     """Say what has come of a run."""
     from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
+    from midrib.formats.units import unit_of
 
     found = Counter(trouble.kind for trouble in drawing.problems)
     strokes = sum(0 if drawn.is_long is None else len(drawn.is_long) for drawn in drawing.objects)
@@ -127,6 +128,8 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
     report.say(f"written to {out}")
+    if drawing.objects and unit_of(drawing.crs) is None:
+        report.say("note: IN does not say what its unit is, it is taken for the metre")
     if not drawing.objects and not drawing.problems:
         report.say("note: IN has no slopes; those that have ended come with --history")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]

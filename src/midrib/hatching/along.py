@@ -75,8 +75,8 @@ def symbols_along(
     there to the other edge. Circles are on the curve of minimal radii, centred, from where one has
     room at one end to where one has at the other; their middles are a factor times the local width
     apart or a little more, so that their number is whole, and every second one is large, the first
-    among them. A large circle that would overlap another one,
-    in a hairpin, is left out; a small one becomes as small as the gap needs.
+    among them. A large circle that would overlap an earlier one is left out; a small one becomes
+    as small as the gap needs.
     """
     known = standards.standard(standard).at(scale)
     if known.symbol in STROKED:
@@ -144,8 +144,9 @@ class Axis(NamedTuple):
         points = self.chain.at(stations)
         for _ in range(STEPS):
             to_main, to_auxiliary = self.feet(points) - points
-            off = np.hypot(*to_main.T)
-            points = points - to_main * (0.5 * (np.hypot(*to_auxiliary.T) / off - 1.0))[:, None]
+            near, far = np.hypot(*to_main.T), np.hypot(*to_auxiliary.T)
+            ratio = np.divide(far, near, out=np.ones_like(far), where=near > 0.0)  # 1 in a tip
+            points = points - to_main * (0.5 * (ratio - 1.0))[:, None]
         return points
 
     def feet(self, points: "Floats") -> "Floats":
@@ -198,10 +199,8 @@ def room(axis: Axis, narrowest: float) -> tuple[float, float]:
 
     def has_room(stations: "Floats") -> "Bools":
         points = axis.middles(stations)
-        widths, free = (
-            axis.widths(points),
-            2.0 * shapely.distance(shapely.points(points), axis.boundary),
-        )
+        widths = axis.widths(points)
+        free = 2.0 * shapely.distance(shapely.points(points), axis.boundary)
         is_free: Bools = (free >= (1.0 - NEARLY) * widths) & (widths >= narrowest)
         return is_free
 

@@ -15,7 +15,7 @@ m           where the sides meet: the end, the tip of a triangle, the fork of a 
           q         toe      The head of a tadpole keeps off the whole strokes beside it.
 """
 
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from midrib.strip import Strip
+    from midrib.hatching.hatch import Hatching
     from midrib.types import Bools, Floats
 
 __all__ = ["symbols"]
@@ -45,35 +45,7 @@ ROUNDS = 6  # of halving, to the largest size that fits: within 2 %
 WITHIN = 1e-7  # of the extent: how far rounding may take a point out of its area
 
 
-class Hatched(Protocol):
-    """What symbols are made from: strokes in a strip, and how they are to be drawn."""
-
-    @property
-    def strokes(self) -> "NDArray[np.object_]":
-        """LineStrings from the top towards the toe, in order along the top."""
-
-    @property
-    def on_top(self) -> "Floats":
-        """(n, 2) where each begins."""
-
-    @property
-    def on_toe(self) -> "Floats":
-        """(n, 2) where each would end if it were long."""
-
-    @property
-    def strip(self) -> "Strip":
-        """The area, with its top as the main curve."""
-
-    @property
-    def standard(self) -> Standard | str:
-        """How they are to be drawn."""
-
-    @property
-    def scale(self) -> float:
-        """Scale of the map, 500 for 1:500."""
-
-
-def symbols(hatching: Hatched, *, metres_per_unit: float = 1.0) -> Symbols:
+def symbols(hatching: "Hatching", *, metres_per_unit: float = 1.0) -> Symbols:
     """Draw the strokes of a hatching as its standard wants them.
 
     Symbols are as wide as the standard says, narrower where the next stroke or the boundary is
@@ -140,7 +112,7 @@ class Strokes(NamedTuple):
         return lines
 
 
-def strokes_of(hatching: Hatched) -> Strokes:
+def strokes_of(hatching: "Hatching") -> Strokes:
     """Strokes of a hatching, with the room they have."""
     top, area = chain_of(hatching.strip.main), hatching.strip.area
     p, q = np.asarray(hatching.on_top), np.asarray(hatching.on_toe)
@@ -155,7 +127,9 @@ def strokes_of(hatching: Hatched) -> Strokes:
             gaps = np.mod(gaps, top.length)
         else:
             gaps[-1] = np.inf
-        after, before = CLOSE * np.abs(gaps), CLOSE * np.abs(np.roll(gaps, 1))
+        # Where rounding has put two strokes the wrong way round, neither has room.
+        gaps = np.maximum(gaps, 0.0)
+        after, before = CLOSE * gaps, CLOSE * np.roll(gaps, 1)
     elif top.is_closed:
         before[:] = after[:] = CLOSE * top.length
     if not top.is_closed:  # a base ends where the top does
@@ -175,15 +149,16 @@ def drawn_strokes(
 ) -> Symbols:
     """Draw strokes, each as a symbol of its kind."""
     lines, areas = Pen(), Pen()
-    size = np.where(
-        kinds == "tadpole",
-        largest(lambda share: ~np.isnan(drops_of_heads(strokes, half * share)), len(kinds)),
-        largest(lambda share: bases_fit(strokes, kinds, half * share), len(kinds)),
-    )
+    has_head = kinds == "tadpole"
+    size = largest(lambda share: bases_fit(strokes, kinds, half * share), len(kinds))
+    drop = np.zeros(len(kinds))
+    if has_head.any():
+        head = largest(lambda share: ~np.isnan(drops_of_heads(strokes, half * share)), len(kinds))
+        drop = drops_of_heads(strokes, half * head)
+        size = np.where(has_head, head, size)
     meeting = strokes.part(meets_at(strokes, kinds, half * size))
     start, stop = ends_of_bases(strokes, half * size)
-    is_head = (kinds == "tadpole") & (size > 0.0)
-    drop = drops_of_heads(strokes, half * size)
+    is_head = has_head & (size > 0.0)
     for i, kind in enumerate(kinds):
         tail = LineString([strokes.p[i], strokes.e[i]])
         if kind == "line" or size[i] == 0.0:

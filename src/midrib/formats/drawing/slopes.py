@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from shapely import LineString
+from shapely import LineString, Point
 
 from midrib import interrupts
 from midrib.errors import InvalidAreaError, ParameterError
@@ -84,10 +84,9 @@ def add_slope(
     options: dict[str, Any],
 ) -> None:
     """Add a slope, or the reason why it is not drawn."""
-    place = slope.area.representative_point()
     if known is None:
         reason = f"no symbol for an object of kind {slope.kind!r} in this standard"
-        drawing.problems.append(Trouble(slope.id, reason, place, LEFT_OUT))
+        drawing.problems.append(Trouble(slope.id, reason, middle_of(slope), LEFT_OUT))
         return
     try:
         symbols, strokes = draw(
@@ -99,7 +98,7 @@ def add_slope(
             **options,
         )
     except InvalidAreaError as error:
-        drawing.problems.append(Trouble(slope.id, str(error), place, REFUSED))
+        drawing.problems.append(Trouble(slope.id, str(error), middle_of(slope), REFUSED))
         return
     is_long, width = (None, None) if strokes is None else (strokes.is_long, strokes.width)
     drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes)
@@ -187,3 +186,8 @@ def drop_of(slope: "Slope") -> float | None:
     if slope.top_heights is None or slope.toe_heights is None:
         return None
     return float(np.mean(slope.top_heights[:, 2]) - np.mean(slope.toe_heights[:, 2]))
+
+
+def middle_of(slope: "Slope") -> Point:
+    """Middle of the top, to mark a slope that is not drawn."""
+    return shapely.force_2d(slope.top).interpolate(0.5, normalized=True)
