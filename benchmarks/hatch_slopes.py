@@ -105,7 +105,7 @@ def bent_line(kind: str, rng: np.random.Generator, width: float, length: float) 
 
 
 def normals(line: Floats) -> Floats:
-    """Unit normals to the left at the vertices of a line; longer at corners, so that widths stay."""
+    """Return normals to the left at vertices; longer at corners, so that widths stay."""
     along = np.diff(line, axis=0)
     along /= np.hypot(*along.T)[:, None]
     before, after = np.vstack([along[:1], along]), np.vstack([along, along[-1:]])
@@ -140,12 +140,13 @@ def ring(rng: np.random.Generator) -> tuple[Floats, Floats]:
 
 
 def noisy(strip: Strip, share: float, seed: int) -> Strip | None:
-    """Return a strip with noise on its top, in mean widths; None if it is none any more."""
+    """Return a strip with noise on its top, in local widths; None if it is none any more."""
     rng = np.random.default_rng(seed)
     top = np.array(strip.main.coords)[:, :2]
     width = 2.0 * strip.area.area / (strip.main.length + strip.auxiliary.length)
     dense = shapely.get_coordinates(shapely.segmentize(LineString(top), width / 2.0))
-    moved = dense + rng.uniform(-share, share, dense.shape) * width
+    local = shapely.distance(shapely.points(dense), strip.auxiliary)
+    moved = dense + rng.uniform(-share, share, dense.shape) * local[:, None]
     moved[[0, -1]] = dense[[0, -1]]
     try:
         return Strip(LineString(moved), strip.auxiliary)

@@ -30,7 +30,7 @@ BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 SEED, COUNT = 1000, 1200
 HEAD = (
     "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
-    "spacing within 0.9–1.1", "worst spacing", "worst gap on top, toe", "least foot",
+    "spacing within 0.9 to 1.1", "worst spacing", "worst gap on top, toe", "least foot",
     "turned too far", "worst turn", "tilt, 99 %",
 )  # fmt: skip
 
@@ -51,11 +51,12 @@ class Row(NamedTuple):
 def stations_of(strip: Strip, gap: float) -> Floats:
     """Stations on the top, about a gap apart."""
     count = max(round(strip.main.length / gap), 2)
-    return strip.main.length * np.arange(1, count) / count
+    stations: Floats = strip.main.length * np.arange(1, count) / count
+    return stations
 
 
 def by_normals(strip: Strip, stations: Floats) -> Ends:
-    """Normals of the top, as far as the boundary."""
+    """Draw normals of the top, as far as the boundary."""
     on_top = points_at(strip.main, stations)
     before = points_at(strip.main, np.maximum(stations - 1e-6, 0.0))
     after = points_at(strip.main, stations + 1e-6)
@@ -81,14 +82,14 @@ def by_proportion(strip: Strip, stations: Floats) -> Ends:
 
 
 def by_nearest(strip: Strip, stations: Floats) -> Ends:
-    """The paper: the nearest point of the toe that is seen."""
+    """Draw to the nearest point of the toe that is seen, as the paper does."""
     curve = minimal_radii(strip, stations=stations, vertices=False, ends=None)
     _, rows = np.unique(curve.stations, return_index=True)
     return curve.on_main[rows], curve.on_auxiliary[rows]
 
 
 def by_dropping(strip: Strip, stations: Floats) -> Ends:
-    """Normals, but for those that cross one that is drawn already or do not end on the toe."""
+    """Draw normals, but for those that cross one drawn already or do not end on the toe."""
     on_top, on_toe = by_normals(strip, stations)
     kept: list[int] = []
     lines = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
@@ -109,7 +110,8 @@ RIVALS: dict[str, Callable[[Strip, Floats], Ends]] = {
 
 def points_at(line: LineString, stations: Floats) -> Floats:
     """Points of a line."""
-    return shapely.get_coordinates(shapely.line_interpolate_point(line, stations))
+    points: Floats = shapely.get_coordinates(shapely.line_interpolate_point(line, stations))
+    return points
 
 
 def gap_of(strip: Strip) -> float:
@@ -169,17 +171,21 @@ def summary(title: str, rows: list[Row]) -> list[str]:
         f"{sum(m.short_of_edge for m in every):,}",
         f"{sum(row.problems for row in rows):,}",
         f"{100.0 * within:.2f} %",
-        f"{spacing.min():.2f}–{spacing.max():.2f}",
+        f"{spacing.min():.2f} to {spacing.max():.2f}",
         f"{max(m.top_gap for m in every):.2f}, {max(m.toe_gap for m in every):.2f}",
         f"{min(m.least_foot for m in every):.2f}",
         f"{100.0 * np.mean(beyond > 0.5):.2f} %",
         f"{turns.max():.0f}°",
-        f"{np.percentile(tilts, 99):.1f}°" if tilts.size else "–",
+        f"{np.percentile(tilts, 99):.1f}°" if tilts.size else "",
     ]
 
 
 def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
-    """Largest change of direction of a stroke of each slope under noise on its top, in degrees."""
+    """Largest change of direction of a stroke of each slope under noise on its top, in degrees.
+
+    Strokes move along the slope too, so that each is held against the directions that the calm
+    slope has within half a gap.
+    """
     changes = []
     for i, slope in enumerate(slopes):
         shaken = noisy(slope.strip, share, SEED + i)
@@ -187,13 +193,19 @@ def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
             continue
         calm, moved = hatch(slope.strip), hatch(shaken)
         assert calm.ground is not None
-        rungs = calm.ground.ladder.rungs
-        near = shapely.STRtree(shapely.points(rungs[:, 1:3])).nearest(
-            shapely.points((moved.on_top + moved.on_toe) / 2.0)
-        )
+        assert moved.ground is not None
+        rungs, line = calm.ground.ladder.rungs, LineString(calm.ground.middle.line)
+        pivots = points_at(LineString(moved.ground.middle.line), moved.station)
+        at = shapely.line_locate_point(line, shapely.points(pivots))
+        gap = np.interp(at, rungs[:, 0], rungs[:, 6])
         across = moved.on_toe - moved.on_top
-        angle = np.arctan2(across[:, 1], across[:, 0]) - rungs[near, 4]
-        changes.append(np.degrees(abs((angle + np.pi) % (2 * np.pi) - np.pi)).max())
+        angle = np.arctan2(across[:, 1], across[:, 0])
+        off = [
+            angle - np.interp(at + half * gap, rungs[:, 0], rungs[:, 4])
+            for half in np.linspace(-0.5, 0.5, 5)
+        ]
+        turned = np.degrees(abs((np.array(off) + np.pi) % (2 * np.pi) - np.pi)).min(axis=0)
+        changes.append(turned.max(initial=0.0))
     return np.array(changes)
 
 
@@ -245,8 +257,9 @@ def worst_sheet(rows: list[Row], path: Path, count: int = 12) -> None:
         plot.set_aspect("equal")
         found = row.measures
         plot.set_title(
-            f"{row.name}: spacing {found.spacing.min():.2f}–{found.spacing.max():.2f}, "
-            f"turn {found.turns.max(initial=0.0):.0f}°, gaps {found.top_gap:.2f} {found.toe_gap:.2f}"
+            f"{row.name}: spacing {found.spacing.min():.2f} to {found.spacing.max():.2f}, "
+            f"turn {found.turns.max(initial=0.0):.0f}°, "
+            f"gaps {found.top_gap:.2f} {found.toe_gap:.2f}"
         )
     figure.tight_layout()
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 
 from midrib.checks import shown
 from midrib.errors import ParameterError
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["add_stroke", "delete_stroke", "move_stroke"]
 
 HALVINGS = 60
+ON_STROKE = 1e-6  # of a stroke's length: so near is on it
 
 
 def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> Hatching:
@@ -62,6 +64,7 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
     segments = np.concatenate([ends_of(hatching), np.append(on_top, on_toe)[None]])
     n = len(hatching.strokes)
     hits = meet(segments, np.arange(n), np.full(n, n))
+    hits |= shapely.distance(hatching.strokes, line[0]) <= ON_STROKE * hatching.width
     if hits.any():
         other = place_text(hatching.on_top[np.flatnonzero(hits)[0]])
         msg = f"a stroke through {place_text(point)} would meet the one from {other}"
@@ -203,7 +206,8 @@ def side_of(chord: "Floats", point: "Floats") -> float:
 
 def row_of(hatching: Hatching, ground: Ground, station: float) -> int:
     """Row before which a stroke at a station belongs."""
-    stations = hatching.station
-    if ground.middle.is_turned:
-        return int(np.searchsorted(-stations, -station))
-    return int(np.searchsorted(stations, station))
+    way = -1.0 if ground.middle.is_turned else 1.0
+    ahead = way * (hatching.station - station)
+    if ground.middle.is_closed:
+        return int(np.argmin(ahead % ground.ladder.rungs[-1, 0])) if ahead.size else 0
+    return int(np.count_nonzero(ahead <= 0.0))

@@ -9,7 +9,7 @@ from midrib.hatching.middle import Middle, middle_of
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.ladder import Ladder, Spacing, Strokes, build_ladder, draw_strokes
-from midrib.kernels.mending import mend
+from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
 from midrib.kernels.spacing import place_strokes
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
@@ -154,7 +154,7 @@ def calmest(strokes: Strokes, periods: Floats) -> int:
     ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods
     shares = ahead / strokes.pivot[:, 5:]
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
-    is_calm &= (shares > 0.3).all(axis=1) & (shares < 1.6).all(axis=1)
+    is_calm &= (shares > LEAST_FOOT).all(axis=1) & (shares < MOST_FOOT).all(axis=1)
     n = is_calm.size
     trouble = np.flatnonzero(~is_calm).tolist()
     if not trouble:

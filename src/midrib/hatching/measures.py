@@ -21,7 +21,7 @@ __all__ = ["Measures", "crossings", "measure", "measure_strokes"]
 
 LEAST_TURN = 20.0  # degrees: so much neighbours may turn anyway
 STRAIGHT = 10.0  # degrees: an edge that turns less within two widths has no corner there
-ON_EDGE = 1e-9  # of the extent
+ON_EDGE, ROUNDING = 1e-9, 2.0**-48  # of the extent, and of the coordinates
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,8 @@ def measure_strokes(
     ratios = steps / between[:count]
     mean = float(ratios.mean()) if count else 1.0
     outside = shapely.length(shapely.difference(strokes, strip.area)).sum() if len(strokes) else 0.0
-    reach = ON_EDGE * float(np.hypot(*np.subtract(strip.area.bounds[2:], strip.area.bounds[:2])))
+    bounds = np.array(strip.area.bounds)
+    reach = ON_EDGE * float(np.hypot(*(bounds[2:] - bounds[:2]))) + ROUNDING * abs(bounds).max()
     off = np.maximum(
         shapely.distance(shapely.points(on_top), main),
         shapely.distance(shapely.points(on_toe), auxiliary),

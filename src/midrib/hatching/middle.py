@@ -17,6 +17,9 @@ from midrib.types import Floats
 
 __all__ = ["Middle", "lay_out_slope", "middle_of"]
 
+CENTRED = "0.2%"  # of the width: decisions that rounding may change then make no visible difference
+SIDE, ALONG = 0.5, 0.7  # cosines of the angles with the top at which an edge is a side, or a toe
+LONGEST_SIDE = 2.0  # mean widths
 NO_ENDS = EndPoints(
     np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2), dtype=np.intp), np.empty(0)
 )
@@ -51,7 +54,7 @@ def middle_of(strip: Strip) -> Middle:
     if strip.is_closed:
         return middle_of_ring(strip)
     layout, is_turned = lay_out_slope(strip)
-    _, path = Construction(centring="centred", ends="caps").of(layout)
+    _, path = Construction(centring="centred", tolerance=CENTRED, ends="caps").of(capped(layout))
     return Middle(layout.mesh, layout.main, layout.auxiliary, path.points, is_turned)
 
 
@@ -74,6 +77,58 @@ def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
         ),
     )
     return turned, True
+
+
+def capped(layout: Layout) -> Layout:
+    """Layout in which the sides of a slope are caps, where the toe holds them too.
+
+    Registers often name the top only, and all else is toe. If the toe leaves the end of the top at
+    60 degrees or more and then turns to run along it, what lies before the turn is a side: the
+    middle line ends halfway along it, not in the corner.
+    """
+    toe, ends = layout.auxiliary, layout.middle
+    point, at = ends.point.copy(), ends.at.copy()
+    cut = [0, 0]
+    for end in (0, 1):
+        top, edge = layout.main, toe
+        if end:
+            top, edge = backwards(top), backwards(edge)
+        cut[end] = count = sides_of(layout, top, edge)
+        if count:
+            half = edge.arc[count] / 2.0
+            k = int(np.searchsorted(edge.arc, half, side="right")) - 1
+            share = (half - edge.arc[k]) / (edge.arc[k + 1] - edge.arc[k])
+            corners = np.column_stack([layout.mesh.x, layout.mesh.y])[edge.vertex[[k, k + 1]]]
+            point[end] = corners[0] + share * (corners[1] - corners[0])
+            at[end] = edge.side[k], edge.vertex[k] if share == 0.0 else -1
+    first, last = cut[0], toe.vertex.size - cut[1]
+    if last - first < 2 or not any(cut):
+        return layout
+    shorter = Chain(
+        toe.vertex[first:last].copy(),
+        toe.side[first : last - 1].copy(),
+        toe.arc[first:last] - toe.arc[first],
+    )
+    return layout._replace(auxiliary=shorter, middle=EndPoints(point, point, at, ends.height))
+
+
+def sides_of(layout: Layout, top: Chain, toe: Chain) -> int:
+    """How many segments of the toe, from the start that it shares with the top, are a side."""
+    if top.vertex[0] != toe.vertex[0]:
+        return 0
+    x, y = layout.mesh.x, layout.mesh.y
+    width = layout.mean_width
+    far = top.vertex[min(int(np.searchsorted(top.arc, width)), top.vertex.size - 1)]
+    along = np.array([x[far] - x[top.vertex[0]], y[far] - y[top.vertex[0]]])
+    for k in range(toe.side.size):
+        a, b = toe.vertex[k], toe.vertex[k + 1]
+        step = np.array([x[b] - x[a], y[b] - y[a]])
+        cosine = float(along @ step / (np.hypot(*along) * np.hypot(*step)))
+        if cosine > ALONG:
+            return k
+        if cosine > SIDE or toe.arc[k + 1] > LONGEST_SIDE * width:
+            return 0
+    return 0
 
 
 def backwards(chain: Chain) -> Chain:
@@ -173,7 +228,9 @@ def half_of(
     count = max(int(np.ceil((high - low) / width)), 8)
     stations = np.linspace(low, high, count + 1)
     layout = Layout(slit, *ring, NO_ENDS, PLANE, None, width)
-    drawn = Construction(centring="centred", ends=None, vertices=False, stations=stations)
+    drawn = Construction(
+        centring="centred", tolerance=CENTRED, ends=None, vertices=False, stations=stations
+    )
     radii, path = drawn.of(layout)
     at_start = radii.station[path.radius[path.on_radii]] == 0
     first = int(path.on_radii[at_start][-1]) if at_start.any() else 0

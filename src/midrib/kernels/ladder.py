@@ -1,6 +1,6 @@
 """The ladder of a slope: directions of chords along its middle line, calm and nearly normal.
 
-Rungs follow each other at a quarter of the gap that the local width asks for. Their directions
+Rungs follow each other at an eighth of the gap that the local width asks for. Their directions
 theta minimise
 
     integral of (theta - n)^2 + (stiffness w)^4 (d2 theta / d tau2)^2  over the middle line,
@@ -31,7 +31,7 @@ from midrib.types import Floats, Ints
 
 __all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at"]
 
-RUNGS = 4.0  # for each gap
+RUNGS = 8.0  # for each gap
 MOST_RUNGS = 2**24
 WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
@@ -222,7 +222,8 @@ def build_ladder(
             rungs, at = with_rows(rungs, 2 * n + 2), with_rows(at, 2 * n + 2)
         normal = normal_at(line, arc, k, tau, gap / 2.0, is_closed)
         chord = shoot(ground, t, x, y, normal)
-        gap = gap_at(rule, chord.width)
+        if n > 0 or is_closed:  # a chord from the end of an open line may lie along the boundary
+            gap = gap_at(rule, chord.width)
         if n > 0:
             normal += WHOLE_TURN * np.round((rungs[n - 1, NORMAL] - normal) / WHOLE_TURN)
         rungs[n, TAU], rungs[n, X], rungs[n, Y] = tau, x, y
@@ -251,7 +252,6 @@ def build_ladder(
     for i in range(n):
         chord = shoot(ground, at[i, 0], rungs[i, X], rungs[i, Y], rungs[i, THETA])
         rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
-    # A chord from the boundary itself, where an open line ends, may lie along it and tell nothing.
     if not is_closed:
         for i, beside in ((0, 1), (n - 1, n - 2)):
             rungs[i, WIDTH], rungs[i, GAP] = rungs[beside, WIDTH], rungs[beside, GAP]

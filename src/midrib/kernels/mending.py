@@ -24,11 +24,11 @@ from midrib.kernels.paths import walk
 from midrib.kernels.predicates import orient
 from midrib.types import Bools, Floats
 
-__all__ = ["crosses", "mend"]
+__all__ = ["LEAST_FOOT", "MOST_FOOT", "crosses", "mend"]
 
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
-FOOT_COST = 20.0  # squared radians per squared gap
+FOOT_COST = 60.0  # squared radians per squared gap
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
 SKIP = 8  # strokes left out in a row
 FAN = 15  # directions on either side, first of

@@ -1,0 +1,208 @@
+"""What each option does, and how wrong ones are refused."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapely import LineString, Point, box
+
+from midrib import hatch
+from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
+from midrib.hatching import add_stroke, delete_stroke, move_stroke
+from midrib.strip import Strip
+from tests.hatching.slopes import annulus, bend, rectangle, ring, trapezium
+
+
+def letters(**options: Any) -> str:
+    """Pattern along the top of a rectangle, from left to right."""
+    options = {"start": "first"} | options
+    return "".join("L" if is_long else "S" for is_long in hatch(rectangle(), **options).is_long)
+
+
+def test_patterns_repeat_from_the_start() -> None:
+    assert letters() == ("LS" * 10)[:19]
+    assert letters(pattern="LSS") == ("LSS" * 7)[:19]
+    assert letters(pattern="LSSL") == ("LSSL" * 5)[:19]
+    assert letters(pattern="L") == "L" * 19
+    assert letters(first="short") == ("SL" * 10)[:19]
+    assert letters(first="short", pattern="LSS") == ("SSL" * 7)[:19]
+
+
+def test_the_pattern_may_start_on_either_side() -> None:
+    """Seen down from a top that runs to the right above its toe, left is where x is largest."""
+    pattern = ("LSS" * 7)[:19]
+    assert (
+        letters(pattern="LSS", start="left")
+        == pattern[::-1]
+        == letters(pattern="LSS", start="last")
+    )
+    assert letters(pattern="LSS", start="right") == pattern == letters(pattern="LSS", start="first")
+
+
+def test_offset_and_ends() -> None:
+    assert hatch(rectangle(), offset=0.5).on_top[[0, -1], 0] == pytest.approx([2.5, 97.5])
+    assert hatch(rectangle(), end_strokes=True).on_top[[0, -1], 0] == pytest.approx([0.0, 100.0])
+    assert letters(end_strokes=True) == ("LS" * 11)[:21]
+
+
+def test_spacing_and_its_bounds() -> None:
+    assert hatch(rectangle(), scale=1000, spacing=4.0).spacing == pytest.approx(np.full(23, 4.0))
+    assert hatch(rectangle(), factor=1.0).spacing == pytest.approx(np.full(8, 10.0))
+    assert hatch(rectangle(), scale=1000, min_spacing=10.0).spacing == pytest.approx(
+        np.full(8, 10.0)
+    )
+    assert hatch(rectangle(), scale=1000, max_spacing=2.5).spacing == pytest.approx(
+        np.full(38, 2.5)
+    )
+    feet = hatch(rectangle(), scale=1000, spacing=4.0, metres_per_unit=0.5)
+    assert feet.spacing == pytest.approx(np.full(len(feet.spacing), 8.0), rel=0.05)
+
+
+def test_a_standard_is_a_name_or_a_record() -> None:
+    record = SimpleNamespace(
+        factor=None, spacing=5.0, min_spacing=0.7, max_spacing=None, pattern="LSS", short_ratio=0.3
+    )
+    hatching = hatch(rectangle(), record, 1000)
+    assert hatching.spacing == pytest.approx(np.full(18, 5.0))
+    assert shapely.length(hatching.strokes[-3:]) == pytest.approx([3.0, 3.0, 10.0])
+
+
+@pytest.mark.parametrize("ratio", [0.05, 0.33, 0.95])
+def test_short_strokes_have_their_share(ratio: float) -> None:
+    hatching = hatch(trapezium(), short_ratio=ratio)
+    share = shapely.length(hatching.strokes) / hatching.width
+    assert share == pytest.approx(np.where(hatching.is_long, 1.0, ratio))
+
+
+def test_zones_hide_strokes_and_move_none() -> None:
+    plain, zone = hatch(rectangle()), box(33, -1, 48, 4)
+    hatching = hatch(rectangle(), exclude=zone)
+    visible = ~shapely.intersects(plain.strokes, zone)
+    assert 0 < np.count_nonzero(~visible) < 4  # short ones end above it
+    assert (hatching.on_top == plain.on_top[visible]).all()
+    assert (hatching.is_long == plain.is_long[visible]).all()
+    assert len(hatch(rectangle(), exclude=[zone, box(80, 0, 85, 9)]).strokes) < len(
+        hatching.strokes
+    )
+
+
+def test_stiffness_trades_turn_against_tilt() -> None:
+    corner = Strip(
+        LineString([(0, 10), (0, 70), (60, 70)]), LineString([(10, 10), (10, 60), (60, 60)])
+    )
+    turns = []
+    for stiffness in (0.3, 0.9, 2.0):
+        hatching = hatch(corner, stiffness=stiffness)
+        angle = np.unwrap(np.arctan2(*(hatching.on_toe - hatching.on_top).T))
+        turns.append(abs(np.diff(angle)).max())
+    assert turns[0] > turns[1] > turns[2]
+
+
+def test_closed_tops_start_at_a_vertex() -> None:
+    strip = annulus(10.0, 16.0, 24)
+    first = hatch(strip, start="first", offset=1e-6)
+    assert first.on_top[np.flatnonzero(first.is_long)] == pytest.approx(
+        np.roll(first.on_top[first.is_long], 0, axis=0)
+    )
+    near = np.hypot(*(first.on_top - strip.main.coords[0]).T)
+    assert near.min() < 0.05
+    assert first.is_long[np.argmin(near)]
+
+
+# -- editing ---------------------------------------------------------------------------------------
+
+
+def test_an_added_stroke_goes_through_its_point() -> None:
+    hatching = hatch(bend())
+    at = Point(0.0, 27.0)
+    more = add_stroke(hatching, at, is_long=False)
+    row = int(np.argmin(abs(np.degrees(np.arctan2(*more.on_top.T)))))
+    whole = LineString([more.on_top[row], more.on_toe[row]])
+    assert whole.distance(at) < 1e-9
+    assert len(more.strokes) == len(hatching.strokes) + 1
+    assert not more.is_long[row]
+    assert (np.diff(np.arctan2(*more.on_top.T)) < 0.0).all()
+    assert more.spacing.sum() == pytest.approx(hatching.spacing.sum())
+    less = delete_stroke(more, row)
+    assert (less.on_top == hatching.on_top).all()
+    assert less.spacing == pytest.approx(hatching.spacing)
+
+
+def test_a_moved_stroke_stays_what_it_is() -> None:
+    moved = move_stroke(hatch(rectangle()), 3, (21.5, 10.0))
+    assert moved.on_top[3] == pytest.approx([21.5, 10.0])
+    assert not moved.is_long[3]
+    assert len(moved.strokes) == 19
+
+
+def test_editing_a_closed_slope() -> None:
+    hatching = hatch(annulus())
+    n = len(hatching.strokes)
+    for k in (0, n - 1, n // 2):
+        middle = (hatching.on_top[k] + hatching.on_top[(k + 1) % n]) / 2.0 * 1.2
+        more = add_stroke(hatching, tuple(middle))
+        assert len(more.strokes) == n + 1
+        assert more.spacing.sum() == pytest.approx(hatching.spacing.sum())
+        assert more.spacing.min() == pytest.approx(hatching.spacing.min() / 2.0, rel=0.1)
+
+
+def test_editing_refuses_what_cannot_be() -> None:
+    hatching = hatch(rectangle())
+    with pytest.raises(ParameterError, match=r"would meet the one from \(5, 10\)"):
+        add_stroke(hatching, (5.0, 3.0))
+    with pytest.raises(ParameterError, match=r"no stroke of the slope leads through \(-7, 5\)"):
+        add_stroke(hatching, (-7.0, 5.0))
+    with pytest.raises(ParameterError, match="index is 19, expected one of 19 strokes"):
+        delete_stroke(hatching, 19)
+    with pytest.raises(ParameterError, match="rule='paper'"):
+        add_stroke(hatch(rectangle(), rule="paper"), (6.0, 3.0))
+
+
+# -- refusals --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"standard": "no such"}, "standard"),
+        ({"standard": 5}, "expected a name or a Standard"),
+        ({"scale": 0}, "scale is 0, expected a number above 0"),
+        ({"metres_per_unit": -1}, "metres_per_unit is -1"),
+        ({"factor": float("nan")}, "factor is nan"),
+        ({"min_spacing": 0}, "min_spacing is 0"),
+        ({"min_length": -1}, "min_length is -1"),
+        ({"pattern": "SS"}, "pattern is 'SS'"),
+        ({"pattern": "LX"}, "pattern is 'LX'"),
+        ({"short_ratio": 0.01}, r"short_ratio is 0.01, expected 0.05 to 0.95"),
+        ({"rule": "other"}, "rule is 'other', expected 'matching' or 'paper'"),
+        ({"start": "top"}, "start is 'top'"),
+        ({"first": "long one"}, "first is 'long one'"),
+        ({"offset": 0}, "offset is 0"),
+        ({"stiffness": None}, "stiffness is None"),
+        ({"end_strokes": 1}, "end_strokes is 1, expected True or False"),
+        ({"scale": 1e-9}, "more than 10000000 strokes"),
+    ],
+)
+def test_wrong_options_are_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        hatch(rectangle(100.0, 1e-7 if "scale" in options else 10.0), **options)
+
+
+def test_wrong_geometries_are_refused() -> None:
+    with pytest.raises(GeometryTypeError, match="strip is a Polygon, expected a Strip"):
+        hatch(box(0, 0, 9, 2))
+    with pytest.raises(GeometryTypeError, match=r"exclude\[1\] is a Point"):
+        hatch(rectangle(), exclude=[box(0, 0, 1, 1), Point(0, 0)])
+    with pytest.raises(InvalidAreaError, match="neither is around the other"):
+        Strip(ring(3.0, 8), LineString([(9, 0), (12, 0), (12, 3), (9, 0)]))
+    with pytest.raises(InvalidAreaError, match="closed"):
+        annulus().layout  # noqa: B018
+
+
+def test_touching_rings_are_refused() -> None:
+    inner = LineString([(0, 0), (4, 0), (4, 4), (0, 0)])
+    outer = LineString([(0, 0), (9, -3), (9, 9), (-3, 9), (0, 0)])
+    with pytest.raises(InvalidAreaError, match=r"touch at \(0, 0\)"):
+        hatch(Strip(inner, outer))
