@@ -80,11 +80,19 @@ def test_geojson_is_json(midrib: Runner, faulty: Path, tmp_path: Path) -> None:
 def test_history_is_checked_when_asked_for(midrib: Runner, tmp_path: Path) -> None:
     ended = earthwork("old", ring(CORNERS), extra="<bdz:koniecObiekt>2022</bdz:koniecObiekt>")
     path = collection(tmp_path / "in.gml", BDOT_2015, ended)
-    assert midrib("check", path).code == 0
+    outcome = midrib("check", path)
+    assert outcome.code == 0
     assert midrib("check", path, "--history").code == 1
 
 
-@pytest.mark.parametrize("place", ["layer", "file"])
+def test_slopes_that_have_ended_are_told(midrib: Runner, tmp_path: Path) -> None:
+    ended = GOOD.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
+    outcome = midrib("check", collection(tmp_path / "in.gml", BDOT_2015, ended))
+    assert outcome.code == 0
+    assert "note: 1 slopes have ended, --history checks them" in outcome.err
+
+
+@pytest.mark.parametrize("place", ["layer", "file", "layer of a file", "drawing"])
 def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Path) -> None:
     path = tmp_path / "in.gpkg"
     area, top = shapely.box(0, 0, 9, 2), LineString([(0, 2), (9, 2)])
@@ -92,9 +100,13 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     rows = np.array([area], dtype=object)
     write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", RD_NEW))
     lines: list[str | None] = ["LINESTRING (1 2, 3 0)", "LINESTRING (3 2, 1 0)"]
-    told = path if place == "layer" else tmp_path / "strokes.gpkg"
+    name = "strokes.dxf" if place == "drawing" else "strokes.gpkg"
+    told = path if place == "layer" else tmp_path / name
     write(told, lines, layer="strokes")
-    strokes = "strokes" if place == "layer" else told
+    if place == "layer of a file":
+        write(told, lines, layer="others")
+    written = {"layer": "strokes", "layer of a file": f"{told}:strokes", "drawing": f"{told}:*"}
+    strokes = written.get(place, told)
     options = ["--layer", "slopes", "--top", "top"]
     assert midrib("check", path, *options).code == 0
     outcome = midrib("check", path, *options, "--strokes", strokes)
@@ -102,7 +114,7 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     assert "strokes 1 and 2 cross" in outcome.out
     wrong = midrib("check", path, *options, "--strokes", "nothing")
     assert wrong.code == 2
-    assert "--strokes is 'nothing', expected a file or a layer of IN" in wrong.err
+    assert "--strokes is 'nothing', expected a layer of '" in wrong.err
 
 
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
