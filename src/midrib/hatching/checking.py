@@ -96,8 +96,9 @@ def check_slopes(
     hatch = engine()
     for slope in slopes:
         interrupts.check()
-        found += [*heights(slope), *boundary(slope), *lengths(slope)]
-        if hatch is not None:
+        off = [*boundary(slope)]
+        found += [*heights(slope), *off, *lengths(slope)]
+        if hatch is not None and not off:
             found += matching(slope, hatch, standard, scale, metres_per_unit)
     found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
     order = {check: k for k, check in enumerate(CHECKS)}
