@@ -13,7 +13,7 @@ from shapely import LineString, Point
 from midrib.formats.writing import Features, write_layer
 from midrib.hatching import checking
 from tests.cli.commands import Runner
-from tests.formats.gml_files import BDOT_2015, collection, earthwork, ring
+from tests.formats.gml_files import BDOT_2015, ZONE_6, collection, earthwork, position, ring
 from tests.formats.layers import RD_NEW, crs_name, projjson, read_all, write
 
 E0, N0 = 6_481_000.0, 5_616_000.0
@@ -115,6 +115,24 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     wrong = midrib("check", path, *options, "--strokes", "nothing")
     assert wrong.code == 2
     assert "--strokes is 'nothing', expected a layer of '" in wrong.err
+
+
+def test_crossings_of_cartographic_objects_are_found(midrib: Runner, tmp_path: Path) -> None:
+    ways = [[(E0 + 1, N0), (E0 + 3, N0 + 2)], [(E0 + 3, N0), (E0 + 1, N0 + 2)]]
+    drawn = [
+        f"<bt:KR_ObiektKarto><bt:kodKarto>BUBZ02</bt:kodKarto><bt:geometriaKarto><gml:LineString "
+        f"{ZONE_6}><gml:posList>{' '.join(map(position, way))}</gml:posList></gml:LineString>"
+        "</bt:geometriaKarto></bt:KR_ObiektKarto>"
+        for way in ways
+    ]
+    path = collection(tmp_path / "in.gml", BDOT_2015, GOOD, *drawn)
+    outcome = midrib("check", path, "--strokes", "BUBZ*")
+    assert outcome.code == 1
+    row = next(line.split() for line in outcome.out.splitlines() if "cross" in line)
+    assert row[:4] == ["good", "crossing", "6481002.000", "5616001.000"]
+    wrong = midrib("check", path, "--strokes", f"{path}:OB*")
+    assert wrong.code == 2
+    assert "has no cartographic object with lines and the code OB*" in wrong.err
 
 
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf"])

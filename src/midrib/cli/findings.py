@@ -16,9 +16,11 @@ from midrib.cli.tables import check_table, write_rows
 from midrib.errors import ParameterError
 from midrib.figures.checks import draw_checks
 from midrib.figures.draw import check_figure
+from midrib.formats.bdot500 import BASIC_MODEL, read_drawn
 from midrib.formats.cad import read_lines
+from midrib.formats.gml import namespaces
 from midrib.formats.reading import Geometries, layer_names, listed, open_layer
-from midrib.formats.slopes import DRAWING
+from midrib.formats.slopes import DRAWING, XML
 from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged
 from midrib.hatching.checking import Finding
@@ -163,6 +165,8 @@ def drawn_strokes(strokes: str, source: Path) -> Geometries:
     path = Path(file) if file and Path(file).exists() else source
     if path.suffix.lower() == DRAWING:
         return np.array([*read_lines(path, "--strokes", layer or "*"), None], dtype=object)[:-1]
+    if path.suffix.lower() in XML and any(BASIC_MODEL in uri for uri in namespaces(path)):
+        return np.array([*read_drawn(path, layer or "*"), None], dtype=object)[:-1]
     layers = layer_names(path)
     if not layer and len(layers) == 1:
         layer = next(iter(layers))

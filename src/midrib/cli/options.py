@@ -194,7 +194,7 @@ Strokes: TypeAlias = Annotated[
     of_check(
         metavar="LAYER|FILE[:LAYER]",
         help="Strokes that are drawn already, in IN or in another file: do any cross? Layers of a "
-        "drawing take wildcards.",
+        "drawing take wildcards, and so do codes of cartographic objects in BDOT500: BUBZ*.",
     ),
 ]
 Standard: TypeAlias = Annotated[

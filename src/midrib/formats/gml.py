@@ -24,6 +24,7 @@ __all__ = [
     "identifier",
     "leaves",
     "line_in",
+    "lines_in",
     "local",
     "namespaces",
     "point_in",
@@ -159,6 +160,12 @@ def line_in(element: etree._Element) -> LineString | None:
     """Line of an element, its pieces in one; None if it has fewer than two points."""
     points = chain(element, system_in(element))
     return LineString(points) if len(np.unique(points, axis=0)) > 1 else None
+
+
+def lines_in(element: etree._Element) -> list[LineString]:
+    """Lines in an element, each for itself."""
+    lines = (line_in(one) for one in element.iter("{*}LineString", "{*}Curve"))
+    return [line for line in lines if line is not None]
 
 
 def point_in(element: etree._Element) -> "Floats | None":

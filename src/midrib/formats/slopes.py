@@ -8,7 +8,7 @@ from midrib.formats.cad import read_cad
 from midrib.formats.layers import Hints, read_layer
 from midrib.hatching.slope import Slope, SlopeProblem
 
-__all__ = ["DRAWING", "Slope", "SlopeProblem", "read_slopes"]
+__all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "read_slopes"]
 
 XML, DRAWING = (".gml", ".xml"), ".dxf"
 
