@@ -13,12 +13,14 @@ if TYPE_CHECKING:
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.slopes import Slope, read_slopes
+    from midrib.hatching.checking import Finding, check_slopes
     from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
 __all__ = [
     "Curve",
+    "Finding",
     "Joint",
     "Problem",
     "Profile",
@@ -26,6 +28,7 @@ __all__ = [
     "SpaceCurve",
     "Strip",
     "add_widths",
+    "check_slopes",
     "collapse",
     "measures",
     "methods",
@@ -38,6 +41,7 @@ __all__ = [
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Finding": "midrib.hatching.checking",
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
@@ -45,6 +49,7 @@ HOME = {
     "SpaceCurve": "midrib.curves.space",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
+    "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
