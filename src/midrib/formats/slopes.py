@@ -74,8 +74,8 @@ def read_slopes(
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as folder:
     ...     path = Path(folder) / "slopes.csv"
-    ...     rows = ["WKT,id,crest", '"POLYGON ((0 0, 9 0, 9 2, 0 2))",a,"LINESTRING (0 2, 9 2)"']
-    ...     _ = path.write_text("\n".join(rows))
+    ...     row = '"POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0))",a,"LINESTRING (0 2, 9 2)"'
+    ...     _ = path.write_text(f"WKT,id,crest\n{row}")
     ...     (slope,), problems = read_slopes(path, top="crest")
     >>> slope.top.wkt, slope.toe.wkt, problems
     ('LINESTRING (0 2, 9 2)', 'LINESTRING (0 2, 0 0, 9 0, 9 2)', [])
