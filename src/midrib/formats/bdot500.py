@@ -73,7 +73,8 @@ def read_bdot500(path: Path, *, history: bool = False) -> tuple[list[Slope], lis
     found = Gathered()
     for feature in gml.features(path):
         name = gml.local(feature)
-        if not history and any(gml.local(e) in ENDED for e in feature.iterdescendants()):
+        ends = (e for e in feature.iterdescendants() if gml.local(e) in ENDED)
+        if not history and any(map(gml.is_told, ends)):
             continue
         with found.refusing(gml.identifier(feature)):
             if name in POINTS:
@@ -118,10 +119,12 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
     InvalidAreaError
         If a top or an area is missing that has to be there, or cannot be read.
     """
-    tops = tops_of(feature)
+    tops, is_slope = tops_of(feature), gml.local(feature) in SLOPES
+    if not tops and not is_slope:
+        return
     areas = [area for e in feature if gml.local(e) == "geometria" for area in gml.areas_in(e)]
     if not tops or not areas:
-        if gml.local(feature) in SLOPES:
+        if is_slope:
             wanted = "a polygon" if tops else f"{TOPS[0][0]} and {TOPS[0][1]}, or {ALONG}"
             msg = f"it has no {'area' if tops else 'top'}, expected {wanted}"
             raise SlopeError(msg, shapely.get_coordinates(areas)[0] if areas else None)

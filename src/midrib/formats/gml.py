@@ -22,6 +22,7 @@ __all__ = [
     "child",
     "features",
     "identifier",
+    "is_told",
     "leaves",
     "line_in",
     "lines_in",
@@ -101,8 +102,13 @@ def features(path: Path) -> Iterator[etree._Element]:
 
 
 def child(element: etree._Element, name: str) -> etree._Element | None:
-    """First child of a name, in whatever namespace."""
-    return next((one for one in element if local(one) == name), None)
+    """First child of a name, in whatever namespace, that has anything in it."""
+    return next((one for one in element if local(one) == name and is_told(one)), None)
+
+
+def is_told(element: etree._Element) -> bool:
+    """Whether an element has anything in it; registers write empty ones for what is not known."""
+    return len(element) > 0 or bool(element.text and element.text.strip())
 
 
 def identifier(feature: etree._Element) -> str:
@@ -118,7 +124,7 @@ def leaves(feature: etree._Element) -> dict[str, object]:
         if below is not None and below in element.iterancestors():
             continue
         below = element if local(element) in GEOMETRIES else None
-        if below is None and len(element) == 0 and element.text and element.text.strip():
+        if below is None and len(element) == 0 and is_told(element):
             found.setdefault(local(element), element.text.strip())
     return found
 
@@ -171,7 +177,7 @@ def lines_in(element: etree._Element) -> list[LineString]:
 def point_in(element: etree._Element) -> "Floats | None":
     """Coordinates of the one point of an element, of a geometry or as plain text."""
     points = chain(element, system_in(element))
-    if len(points) == 0 and element.text and element.text.strip():
+    if len(points) == 0 and element.text and is_told(element):
         points = rows(element.text, 2, system_in(element))
     return points[0] if len(points) == 1 else None
 
@@ -221,6 +227,9 @@ def rows(text: str | None, size: int, system: System) -> "Floats":
         beginning = " ".join((text or "").split())[:40]
         msg = f"the coordinates {beginning!r} are not rows of {size} numbers"
         raise InvalidAreaError(msg) from None
+    if not np.isfinite(points).all():
+        msg = "a coordinate is not finite"
+        raise InvalidAreaError(msg)
     return points[:, [1, 0, *range(2, size)]] if system.is_north_first else points
 
 
