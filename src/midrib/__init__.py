@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.slopes import draw_slopes
     from midrib.formats.drawing.write import write_drawing
     from midrib.formats.slopes import Slope, read_slopes
+    from midrib.hatching.checking import Finding, check_slopes
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Curve",
+    "Finding",
     "Hatching",
     "Joint",
     "Problem",
@@ -32,6 +34,7 @@ __all__ = [
     "Standard",
     "Strip",
     "add_widths",
+    "check_slopes",
     "collapse",
     "draw_slopes",
     "hatch",
@@ -49,6 +52,7 @@ __all__ = [
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
@@ -58,6 +62,7 @@ HOME = {
     "Standard": "midrib.hatching.standards",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
+    "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
     "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",

@@ -13,7 +13,7 @@ from shapely import LineString, Point
 from midrib.formats.writing import Features, write_layer
 from midrib.hatching import checking
 from tests.cli.commands import Runner
-from tests.formats.gml_files import BDOT_2015, collection, earthwork, ring
+from tests.formats.gml_files import BDOT_2015, ZONE_6, collection, earthwork, position, ring
 from tests.formats.layers import RD_NEW, crs_name, projjson, read_all, write
 
 E0, N0 = 6_481_000.0, 5_616_000.0
@@ -80,11 +80,19 @@ def test_geojson_is_json(midrib: Runner, faulty: Path, tmp_path: Path) -> None:
 def test_history_is_checked_when_asked_for(midrib: Runner, tmp_path: Path) -> None:
     ended = earthwork("old", ring(CORNERS), extra="<bdz:koniecObiekt>2022</bdz:koniecObiekt>")
     path = collection(tmp_path / "in.gml", BDOT_2015, ended)
-    assert midrib("check", path).code == 0
+    outcome = midrib("check", path)
+    assert outcome.code == 0
     assert midrib("check", path, "--history").code == 1
 
 
-@pytest.mark.parametrize("place", ["layer", "file"])
+def test_slopes_that_have_ended_are_told(midrib: Runner, tmp_path: Path) -> None:
+    ended = GOOD.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
+    outcome = midrib("check", collection(tmp_path / "in.gml", BDOT_2015, ended))
+    assert outcome.code == 0
+    assert "note: 1 slopes have ended, --history checks them" in outcome.err
+
+
+@pytest.mark.parametrize("place", ["layer", "file", "layer of a file", "drawing"])
 def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Path) -> None:
     path = tmp_path / "in.gpkg"
     area, top = shapely.box(0, 0, 9, 2), LineString([(0, 2), (9, 2)])
@@ -92,9 +100,13 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     rows = np.array([area], dtype=object)
     write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", RD_NEW))
     lines: list[str | None] = ["LINESTRING (1 2, 3 0)", "LINESTRING (3 2, 1 0)"]
-    told = path if place == "layer" else tmp_path / "strokes.gpkg"
+    name = "strokes.dxf" if place == "drawing" else "strokes.gpkg"
+    told = path if place == "layer" else tmp_path / name
     write(told, lines, layer="strokes")
-    strokes = "strokes" if place == "layer" else told
+    if place == "layer of a file":
+        write(told, lines, layer="others")
+    written = {"layer": "strokes", "layer of a file": f"{told}:strokes", "drawing": f"{told}:*"}
+    strokes = written.get(place, told)
     options = ["--layer", "slopes", "--top", "top"]
     assert midrib("check", path, *options).code == 0
     outcome = midrib("check", path, *options, "--strokes", strokes)
@@ -102,7 +114,25 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     assert "strokes 1 and 2 cross" in outcome.out
     wrong = midrib("check", path, *options, "--strokes", "nothing")
     assert wrong.code == 2
-    assert "--strokes is 'nothing', expected a file or a layer of IN" in wrong.err
+    assert "--strokes is 'nothing', expected a layer of '" in wrong.err
+
+
+def test_crossings_of_cartographic_objects_are_found(midrib: Runner, tmp_path: Path) -> None:
+    ways = [[(E0 + 1, N0), (E0 + 3, N0 + 2)], [(E0 + 3, N0), (E0 + 1, N0 + 2)]]
+    drawn = [
+        f"<bt:KR_ObiektKarto><bt:kodKarto>BUBZ02</bt:kodKarto><bt:geometriaKarto><gml:LineString "
+        f"{ZONE_6}><gml:posList>{' '.join(map(position, way))}</gml:posList></gml:LineString>"
+        "</bt:geometriaKarto></bt:KR_ObiektKarto>"
+        for way in ways
+    ]
+    path = collection(tmp_path / "in.gml", BDOT_2015, GOOD, *drawn)
+    outcome = midrib("check", path, "--strokes", "BUBZ*")
+    assert outcome.code == 1
+    row = next(line.split() for line in outcome.out.splitlines() if "cross" in line)
+    assert row[:4] == ["good", "crossing", "6481002.000", "5616001.000"]
+    wrong = midrib("check", path, "--strokes", f"{path}:OB*")
+    assert wrong.code == 2
+    assert "has no cartographic object with lines and the code OB*" in wrong.err
 
 
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf"])

@@ -25,6 +25,7 @@ E0, N0 = 6_481_000.0, 5_616_000.0
 CORNERS: list[At] = [(E0, N0), (E0 + 9, N0), (E0 + 10, N0 + 2), (E0, N0 + 2)]
 SLOPE = ring(CORNERS)
 NAMES = ("old", "new")
+ALONG = "poliliniaKierunkowa"
 
 
 def moved(points: Sequence[At], x: float, y: float) -> list[At]:
@@ -69,6 +70,19 @@ def test_history_is_read_when_asked_for(ended: str, tmp_path: Path) -> None:
     assert [slope.id for slope in read_slopes(path, history=True)[0]] == ["old", "new"]
 
 
+def test_what_is_empty_is_not_there(tmp_path: Path) -> None:
+    """Registers write empty elements for what is not known or does not apply."""
+    names = ("koniecObiekt", "poczatekGoryKolejnejSkarpy", "koniecGoryKolejnejSkarpy", ALONG)
+    extra = "".join(f'<bdz:{name} nilReason="missing"> </bdz:{name}>' for name in names)
+    features = [
+        earthwork("a", SLOPE, CORNERS[0], CORNERS[1], extra=extra),
+        earthwork("b", SLOPE, extra=extra),
+    ]
+    slopes, problems = read_slopes(collection(tmp_path / "a.gml", BDOT_2015, *features))
+    assert [slope.id for slope in slopes] == ["a"]
+    assert [problem.reason[:13] for problem in problems] == ["it has no top"]
+
+
 @pytest.mark.parametrize(
     ("word", "kind"),
     {
@@ -97,6 +111,7 @@ def test_what_is_no_slope_is_told_and_the_others_go_on(tmp_path: Path) -> None:
         earthwork("off", SLOPE, off, CORNERS[1]),
         earthwork("crossing", bow_tie, CORNERS[0], CORNERS[1]),
         earthwork("words", SLOPE.replace("5616000.0", "north"), CORNERS[0], CORNERS[1]),
+        earthwork("endless", SLOPE.replace("5616000.0", "inf"), CORNERS[0], CORNERS[1]),
         earthwork("odd", SLOPE.replace("5616000.0 ", "", 1), CORNERS[0], CORNERS[1]),
         earthwork("no area", "", CORNERS[0], CORNERS[1]),
         earthwork("line", ring(CORNERS[:2]), CORNERS[0], CORNERS[1]),
@@ -112,6 +127,7 @@ def test_what_is_no_slope_is_told_and_the_others_go_on(tmp_path: Path) -> None:
     assert reasons["crossing"] == "its area is not valid: Self-intersection"
     assert reasons["words"].startswith("the coordinates 'north")
     assert "are not rows of 2 numbers" in reasons["odd"]
+    assert reasons["endless"] == "a coordinate is not finite"
     assert reasons["no area"] == "it has no area, expected a polygon"
     assert reasons["line"] == "a ring has fewer than three points"
     places = {problem.id: problem.where for problem in problems if problem.where is not None}

@@ -124,6 +124,12 @@ def test_layers_that_are_missing_are_named(tmp_path: Path) -> None:
         read_slopes(path, top="x", toe="b")
     with pytest.raises(ParameterError, match=r"named like \*gora\* or .*, expected top to name"):
         read_slopes(path)
+    document = ezdxf.new()
+    for k in range(12):
+        document.modelspace().add_line((0, 0), (1, k), dxfattribs={"layer": f"L{k:02}"})
+    document.saveas(tmp_path / "many.dxf")
+    with pytest.raises(ParameterError, match=r"'L00', .*'L07' and 4 more$"):
+        read_slopes(tmp_path / "many.dxf")
     broken = tmp_path / "b.dxf"
     broken.write_text("nothing")
     with pytest.raises(ParameterError, match=r"b\.dxf' cannot be read as a drawing"):

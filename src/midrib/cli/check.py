@@ -33,9 +33,10 @@ def check(
     report = Report(quiet=quiet)
     places = Places(source, out, figure)
     places.check(overwrite=overwrite)
-    slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
-    )
+    told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end}
+    slopes, problems = read_slopes(source, history=history, **told)
+    if not slopes and not history and (ended := read_slopes(source, history=True, **told)[0]):
+        report.say(f"note: {len(ended)} slopes have ended, --history checks them")
     report.announce()
     interrupts.start_work()
     findings = check_slopes(

@@ -16,7 +16,11 @@ from midrib.cli.tables import check_table, write_rows
 from midrib.errors import ParameterError
 from midrib.figures.checks import draw_checks
 from midrib.figures.draw import check_figure
+from midrib.formats.bdot500 import BASIC_MODEL, read_drawn
+from midrib.formats.cad import read_lines
+from midrib.formats.gml import namespaces
 from midrib.formats.reading import Geometries, layer_names, listed, open_layer
+from midrib.formats.slopes import DRAWING, XML
 from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged
 from midrib.hatching.checking import Finding
@@ -148,24 +152,27 @@ def metres_per_unit(slopes: "Sequence[Slope]") -> float:
 
 
 def drawn_strokes(strokes: str, source: Path) -> Geometries:
-    """Read strokes from a layer of IN, or from the only layer of another file.
+    """Read strokes from a layer of IN, or from another file or a layer of it.
 
     Raises
     ------
     ParameterError
         If there is no such layer or file.
     """
-    path, layer = source, strokes
+    file, _, layer = strokes.rpartition(":")
     if Path(strokes).exists():
-        path = Path(strokes)
-        layers = layer_names(path)
-        if len(layers) != 1:
-            msg = f"--strokes {strokes!r} has the layers {listed(layers)}, expected one alone"
-            raise ParameterError(msg)
+        file, layer = strokes, ""
+    path = Path(file) if file and Path(file).exists() else source
+    if path.suffix.lower() == DRAWING:
+        return np.array([*read_lines(path, "--strokes", layer or "*"), None], dtype=object)[:-1]
+    if path.suffix.lower() in XML and any(BASIC_MODEL in uri for uri in namespaces(path)):
+        return np.array([*read_drawn(path, layer or "*"), None], dtype=object)[:-1]
+    layers = layer_names(path)
+    if not layer and len(layers) == 1:
         layer = next(iter(layers))
-    elif strokes not in layer_names(source):
-        msg = f"--strokes is {strokes!r}, expected a file or a layer of IN: "
-        raise ParameterError(msg + listed(layer_names(source)))
+    if layer not in layers:
+        msg = f"--strokes is {strokes!r}, expected a layer of {str(path)!r}: {listed(layers)}"
+        raise ParameterError(msg)
     with open_layer(path, layer) as features:
         parts = [shapely.get_parts(batch.geometries) for batch in features.batches()]
     lines: Geometries = np.concatenate(parts)

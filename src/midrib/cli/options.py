@@ -244,7 +244,11 @@ Exclude: TypeAlias = Annotated[
 
 Strokes: TypeAlias = Annotated[
     str | None,
-    of_check(metavar="LAYER|FILE", help="Strokes that are drawn already: do any cross?"),
+    of_check(
+        metavar="LAYER|FILE[:LAYER]",
+        help="Strokes that are drawn already, in IN or in another file: do any cross? Layers of a "
+        "drawing take wildcards, and so do codes of cartographic objects in BDOT500: BUBZ*.",
+    ),
 ]
 Standard: TypeAlias = Annotated[
     str, of_check(metavar="NAME", help="How the slopes would be hatched.")

@@ -8,6 +8,7 @@ Sources: the files themselves (C-GEO 8.15 and 8.18); names of kinds in the model
 public QGIS style for ``rodzajBudZiemn``, codes of the model of 2021 from those of QMapa 2.0.
 """
 
+from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
+from midrib.errors import ParameterError
 from midrib.formats import gml
 from midrib.formats.gathering import Gathered, Top, is_height
 from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
@@ -25,9 +27,10 @@ if TYPE_CHECKING:
     from midrib.hatching.edges import Edges
     from midrib.types import Floats
 
-__all__ = ["DATABASE", "KIND_FIELDS", "kind_of", "read_bdot500"]
+__all__ = ["BASIC_MODEL", "DATABASE", "kind_of", "read_bdot500", "read_drawn"]
 
 DATABASE = "bazaDanychObiektowTopograficznych500"  # in the namespaces of both models
+BASIC_MODEL, DRAWN = "modelPodstawowy", "geometriaKarto"  # of cartographic objects, 2015
 MODEL_2015 = "urn:"  # how the older namespaces begin
 KINDS_BY_WORD: dict[str, SlopeKind] = {  # model of 2015
     "nasyp": "embankment",
@@ -60,7 +63,6 @@ ALONG = "poliliniaKierunkowa"
 ENDED = {"koniecObiekt", "koniecWersjiObiektu", "koniecWersjaObiekt"}
 POINTS = {"BDZ_PunktOOkreslonejWysokosci": "rzednaGory", "OT_Rzedna": "rzedna"}  # of the ground
 OF_TOP, OF_TOE = "rzednaGory", "rzednaDolu"  # heights that an object with an area gives its edges
-KIND_FIELDS = ("rodzajBudZiemn", "rodzajSkarpy")  # names of the kind in a layer of slopes
 
 
 def read_bdot500(path: Path, *, history: bool = False) -> tuple[list[Slope], list[SlopeProblem]]:
@@ -71,7 +73,8 @@ def read_bdot500(path: Path, *, history: bool = False) -> tuple[list[Slope], lis
     found = Gathered()
     for feature in gml.features(path):
         name = gml.local(feature)
-        if not history and any(gml.local(e) in ENDED for e in feature.iterdescendants()):
+        ends = (e for e in feature.iterdescendants() if gml.local(e) in ENDED)
+        if not history and any(map(gml.is_told, ends)):
             continue
         with found.refusing(gml.identifier(feature)):
             if name in POINTS:
@@ -79,6 +82,25 @@ def read_bdot500(path: Path, *, history: bool = False) -> tuple[list[Slope], lis
             else:
                 add_slopes(found, feature)
     return found.result()
+
+
+def read_drawn(path: Path, code: str) -> list[LineString]:
+    """Read the lines of cartographic objects; ``code`` is theirs, with wildcards.
+
+    Raises
+    ------
+    ParameterError
+        If there is none.
+    """
+    lines: list[LineString] = []
+    for feature in gml.features(path):
+        drawn = gml.child(feature, DRAWN)
+        if drawn is not None and fnmatchcase(str(gml.leaves(feature).get("kodKarto")), code):
+            lines += gml.lines_in(drawn)
+    if not lines:
+        msg = f"{str(path)!r} has no cartographic object with lines and the code {code}"
+        raise ParameterError(msg)
+    return lines
 
 
 def add_height(found: Gathered, feature: "_Element", name: str) -> None:
@@ -97,10 +119,12 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
     InvalidAreaError
         If a top or an area is missing that has to be there, or cannot be read.
     """
-    tops = tops_of(feature)
+    tops, is_slope = tops_of(feature), gml.local(feature) in SLOPES
+    if not tops and not is_slope:
+        return
     areas = [area for e in feature if gml.local(e) == "geometria" for area in gml.areas_in(e)]
     if not tops or not areas:
-        if gml.local(feature) in SLOPES:
+        if is_slope:
             wanted = "a polygon" if tops else f"{TOPS[0][0]} and {TOPS[0][1]}, or {ALONG}"
             msg = f"it has no {'area' if tops else 'top'}, expected {wanted}"
             raise SlopeError(msg, shapely.get_coordinates(areas)[0] if areas else None)

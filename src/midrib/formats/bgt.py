@@ -37,7 +37,7 @@ def read_bgt(path: Path, *, history: bool = False) -> tuple[list[Slope], list[Sl
     """
     found = Gathered()
     for feature in gml.features(path):
-        if not history and any(gml.local(e) in ENDED for e in feature):
+        if not history and any(gml.local(e) in ENDED and gml.is_told(e) for e in feature):
             continue
         with found.refusing(gml.identifier(feature)):
             add_slope(found, feature)
@@ -52,7 +52,7 @@ def add_slope(found: Gathered, feature: "_Element") -> None:
     InvalidAreaError
         If it has no crest, or it or its area cannot be read.
     """
-    crests = [e for e in feature if gml.local(e).startswith(CREST) and len(e)]
+    crests = [e for e in feature if gml.local(e).startswith(CREST) and gml.is_told(e)]
     on_slope = next((e for e in feature if gml.local(e).endswith(ON_SLOPE)), None)
     if not crests and (on_slope is None or on_slope.text != "true"):
         return

@@ -5,7 +5,7 @@ joined; blocks are not looked into. A drawing has no coordinate reference system
 """
 
 from collections.abc import Iterator
-from fnmatch import fnmatch
+from fnmatch import fnmatchcase
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,11 +22,12 @@ from midrib.hatching.slope import Slope, SlopeProblem
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-__all__ = ["read_cad"]
+__all__ = ["read_cad", "read_lines"]
 
 KINDS = "LINE LWPOLYLINE POLYLINE ARC CIRCLE ELLIPSE SPLINE"
 DEVIATION = 1e-4  # of the size of a curve: what a chord is off it at most
 SPANS = 16  # Bézier curves of a circle: they are 1e-7 of the radius off it
+MOST_NAMES = 8  # in a message
 TOPS = ("*gora*", "*góra*", "*top*", "*crest*", "*kruin*", "*oberkante*")
 TOES = ("*dol*", "*dół*", "*toe*", "*bottom*", "*voet*", "*teen*", "*unterkante*")
 
@@ -46,24 +47,50 @@ def read_cad(
     ParameterError
         If the file is no drawing, or has no such layers.
     """
+    drawing, found = opened(path), Gathered()
+    tops = joined(lines_on(drawing, path, "top", (top,) if top else TOPS))
+    toes = joined(lines_on(drawing, path, "toe", (toe,) if toe else TOES))
+    add_pairs(found, tops, toes, path.stem)
+    return found.result()
+
+
+def read_lines(path: Path, option: str, layer: str) -> list[LineString]:
+    """Read the lines on some layers of a drawing; ``layer`` is a name with wildcards.
+
+    Raises
+    ------
+    MissingDependencyError
+        If ezdxf is not installed.
+    ParameterError
+        If the file is no drawing, or has no such layers.
+    """
+    return lines_on(opened(path), path, option, (layer,))
+
+
+def opened(path: Path) -> "Drawing":
+    """Open a drawing.
+
+    Raises
+    ------
+    MissingDependencyError
+        If ezdxf is not installed.
+    ParameterError
+        If the file is no drawing.
+    """
     if find_spec("ezdxf") is None:
         msg = "a drawing needs ezdxf: pip install midrib[dxf]"
         raise MissingDependencyError(msg)
     import ezdxf
 
     try:
-        drawing = ezdxf.readfile(path)  # type: ignore[attr-defined]
+        return ezdxf.readfile(path)  # type: ignore[attr-defined]
     except (OSError, ezdxf.DXFError) as error:  # type: ignore[attr-defined]
-        msg = f"IN {str(path)!r} cannot be read as a drawing: {error}"
+        msg = f"{str(path)!r} cannot be read as a drawing: {error}"
         raise ParameterError(msg) from error
-    found = Gathered()
-    tops = lines_of(drawing, "top", (top,) if top else TOPS, path)
-    add_pairs(found, tops, lines_of(drawing, "toe", (toe,) if toe else TOES, path), path.stem)
-    return found.result()
 
 
-def lines_of(
-    drawing: "Drawing", option: str, patterns: tuple[str, ...], path: Path
+def lines_on(
+    drawing: "Drawing", path: Path, option: str, patterns: tuple[str, ...]
 ) -> list[LineString]:
     """Lines on the layers that fit a pattern.
 
@@ -73,15 +100,16 @@ def lines_of(
         If there is none.
     """
     names = {entity.dxf.layer for entity in drawing.modelspace().query(KINDS)}
-    fit = {n for n in names if any(fnmatch(n.lower(), pattern.lower()) for pattern in patterns)}
+    fit = {n for n in names if any(fnmatchcase(n.lower(), p.lower()) for p in patterns)}
     if not fit:
-        known = listed(sorted(names)) or "there is none"
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        known = listed(sorted(names)[:MOST_NAMES]) + more
         msg = (
-            f"no layer of IN {str(path)!r} with lines is named like {' or '.join(patterns)}, "
-            f"expected {option} to name one of {known}"
+            f"no layer of {str(path)!r} with lines is named like {' or '.join(patterns)}, "
+            f"expected {option} to name one of {known or 'none'}"
         )
         raise ParameterError(msg)
-    return joined([*pieces(drawing, fit)])
+    return [*pieces(drawing, fit)]
 
 
 def pieces(drawing: "Drawing", layers: set[str]) -> Iterator[LineString]:

@@ -22,8 +22,10 @@ __all__ = [
     "child",
     "features",
     "identifier",
+    "is_told",
     "leaves",
     "line_in",
+    "lines_in",
     "local",
     "namespaces",
     "point_in",
@@ -100,8 +102,13 @@ def features(path: Path) -> Iterator[etree._Element]:
 
 
 def child(element: etree._Element, name: str) -> etree._Element | None:
-    """First child of a name, in whatever namespace."""
-    return next((one for one in element if local(one) == name), None)
+    """First child of a name, in whatever namespace, that has anything in it."""
+    return next((one for one in element if local(one) == name and is_told(one)), None)
+
+
+def is_told(element: etree._Element) -> bool:
+    """Whether an element has anything in it; registers write empty ones for what is not known."""
+    return len(element) > 0 or bool(element.text and element.text.strip())
 
 
 def identifier(feature: etree._Element) -> str:
@@ -117,7 +124,7 @@ def leaves(feature: etree._Element) -> dict[str, object]:
         if below is not None and below in element.iterancestors():
             continue
         below = element if local(element) in GEOMETRIES else None
-        if below is None and len(element) == 0 and element.text and element.text.strip():
+        if below is None and len(element) == 0 and is_told(element):
             found.setdefault(local(element), element.text.strip())
     return found
 
@@ -161,10 +168,16 @@ def line_in(element: etree._Element) -> LineString | None:
     return LineString(points) if len(np.unique(points, axis=0)) > 1 else None
 
 
+def lines_in(element: etree._Element) -> list[LineString]:
+    """Lines in an element, each for itself."""
+    lines = (line_in(one) for one in element.iter("{*}LineString", "{*}Curve"))
+    return [line for line in lines if line is not None]
+
+
 def point_in(element: etree._Element) -> "Floats | None":
     """Coordinates of the one point of an element, of a geometry or as plain text."""
     points = chain(element, system_in(element))
-    if len(points) == 0 and element.text and element.text.strip():
+    if len(points) == 0 and element.text and is_told(element):
         points = rows(element.text, 2, system_in(element))
     return points[0] if len(points) == 1 else None
 
@@ -214,6 +227,9 @@ def rows(text: str | None, size: int, system: System) -> "Floats":
         beginning = " ".join((text or "").split())[:40]
         msg = f"the coordinates {beginning!r} are not rows of {size} numbers"
         raise InvalidAreaError(msg) from None
+    if not np.isfinite(points).all():
+        msg = "a coordinate is not finite"
+        raise InvalidAreaError(msg)
     return points[:, [1, 0, *range(2, size)]] if system.is_north_first else points
 
 

@@ -8,7 +8,7 @@ from midrib.formats.cad import read_cad
 from midrib.formats.layers import Hints, read_layer
 from midrib.hatching.slope import Slope, SlopeProblem
 
-__all__ = ["Slope", "SlopeProblem", "read_slopes"]
+__all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "read_slopes"]
 
 XML, DRAWING = (".gml", ".xml"), ".dxf"
 
@@ -23,7 +23,7 @@ def read_slopes(
     end: str | None = None,
     history: bool = False,
 ) -> tuple[list[Slope], list[SlopeProblem]]:
-    """Read the slopes of a register: areas with their tops and toes.
+    r"""Read the slopes of a register: areas with their tops and toes.
 
     Finds out what the file is: BDOT500 of the models of 2015 and 2021 (GML), BGT (CityGML), a
     drawing (DXF), or any vector layer with areas and something that tells where their tops are.
@@ -63,6 +63,22 @@ def read_slopes(
     is taken, else the nearest place if that is as near. Either is listed as a problem. A height of
     0 is unknown. Points of known height are on an edge if they are within a 100th of the mean width
     of it. O(n) memory in the vertices of the slopes; GML is read one feature at a time.
+
+    References
+    ----------
+    docs/registers.md: what becomes a slope in each model, with sources.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "slopes.csv"
+    ...     row = '"POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0))",a,"LINESTRING (0 2, 9 2)"'
+    ...     _ = path.write_text(f"WKT,id,crest\n{row}")
+    ...     (slope,), problems = read_slopes(path, top="crest")
+    >>> slope.top.wkt, slope.toe.wkt, problems
+    ('LINESTRING (0 2, 9 2)', 'LINESTRING (0 2, 0 0, 9 0, 9 2)', [])
     """
     path = Path(path)
     if not path.exists():
