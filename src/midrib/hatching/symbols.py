@@ -42,7 +42,9 @@ DROPS = (1.05, 1.2, 1.4, 1.7, 2.0)  # radii from the top to the middle of a head
 HALF_WAY = 0.49  # to the next stroke, that a head takes at the most
 EQUILATERAL = 3.0**0.5 / 2.0  # height over base
 ROUNDS = 6  # of halving, to the largest size that fits: within 2 %
-WITHIN = 1e-7  # of the extent: how far rounding may take a point out of its area
+# How far rounding may take a point of the top out of the area: so many last places of coordinates,
+# and a share of the extent.
+ULPS, WITHIN = 64.0, 1e-12
 
 
 def symbols(hatching: "Hatching", *, metres_per_unit: float = 1.0) -> Symbols:
@@ -94,7 +96,8 @@ class Strokes(NamedTuple):
     q: "Floats"
     before: "Floats"  # (n,) what a base may take of the top before p
     after: "Floats"
-    grown: Polygon  # the area, with what rounding needs
+    area: Polygon
+    grown: Polygon  # with what rounding needs
 
     @property
     def length(self) -> "Floats":
@@ -114,7 +117,8 @@ class Strokes(NamedTuple):
 
 def strokes_of(hatching: "Hatching") -> Strokes:
     """Strokes of a hatching, with the room they have."""
-    top, area = chain_of(hatching.strip.main), hatching.strip.area
+    top = chain_of(hatching.strip.main)
+    area = shapely.force_2d(hatching.strip.area)  # a copy, to be prepared
     p, q = np.asarray(hatching.on_top), np.asarray(hatching.on_toe)
     n = len(p)
     e = shapely.get_coordinates(shapely.get_point(hatching.strokes, -1))
@@ -134,10 +138,11 @@ def strokes_of(hatching: "Hatching") -> Strokes:
         before[:] = after[:] = CLOSE * top.length
     if not top.is_closed:  # a base ends where the top does
         before, after = np.minimum(before, station), np.minimum(after, top.length - station)
-    low_x, low_y, high_x, high_y = area.bounds
-    grown = shapely.buffer(area, WITHIN * np.hypot(high_x - low_x, high_y - low_y), quad_segs=1)
-    shapely.prepare(grown)
-    return Strokes(top, station, p, e, q, before, after, grown)
+    corners = np.array(area.bounds).reshape(2, 2)
+    rounding = ULPS * np.spacing(np.abs(corners).max()) + WITHIN * np.ptp(corners)
+    grown = shapely.buffer(area, rounding, quad_segs=1)
+    shapely.prepare([area, grown])
+    return Strokes(top, station, p, e, q, before, after, area, grown)
 
 
 def drawn_strokes(
@@ -226,7 +231,7 @@ def drops_of_heads(strokes: Strokes, radius: "Floats") -> "Floats":
     A head is inside the area, on its stroke, and clear of the whole strokes beside it.
     """
     found = np.full(len(radius), np.nan)
-    boundary, whole = shapely.boundary(strokes.grown), strokes.whole()
+    boundary, whole = shapely.boundary(strokes.area), strokes.whole()
     shapely.prepare(boundary)
     for drop in DROPS:
         discs = shapely.points(strokes.part(drop * radius / strokes.length))
@@ -237,7 +242,7 @@ def drops_of_heads(strokes: Strokes, radius: "Floats") -> "Floats":
                 beside[0 if turn == 1 else -1] = np.inf
             free = np.minimum(free, np.where(len(whole) > 1, beside, np.inf))
         fits = (radius <= free) & ((drop + 1.0) * radius <= strokes.length)
-        fits &= shapely.covers(strokes.grown, discs)
+        fits &= shapely.covers(strokes.area, discs)
         found = np.where(np.isnan(found) & fits, drop * radius, found)
     return found
 

@@ -37,8 +37,14 @@ LARGEST = 5080.0  # PDF goes to 14,400 points
 PAPERS = {"A4": (210, 297), "A3": (297, 420), "A2": (420, 594), "A1": (594, 841), "A0": (841, 1189)}
 TEXT, FONT, FINE = "#333333", 2.6, 0.25  # colour, height in millimetres; width of the scale bar
 PROBLEM, DOT = "#d73027", 2.0
+NEARLY = 1e-9  # of a page, that rounding may add
 BAR = 60.0  # millimetres, at the most, and a third of the page's width
-STYLE: dict[Any, Any] = {"lines.scale_dashes": False, "svg.hashsalt": "midrib", "pdf.fonttype": 42}
+STYLE: dict[Any, Any] = {
+    "path.simplify": False,
+    "lines.scale_dashes": False,
+    "svg.hashsalt": "midrib",
+    "pdf.fonttype": 42,
+}
 
 
 class Page(NamedTuple):
@@ -48,6 +54,7 @@ class Page(NamedTuple):
     low: "Floats"  # (2,) map coordinates at the lower left corner of its map
     high: "Floats"
     name: str
+    is_alone: bool
 
 
 def check_sheet() -> None:
@@ -123,17 +130,24 @@ def pages_of(drawing: "Drawing", paper: str | None) -> list[Page]:
         raise ParameterError(msg)
     room = (size - AROUND) * drawing.millimetre
     corner = bounds.mean(axis=0) + 0.5 * counts * room * [-1.0, 1.0]  # upper left
-    pages = []
+    pages, is_alone = [], bool(counts.prod() == 1)
     for row in range(counts[1]):
         for column in range(counts[0]):
             low = corner + room * [column, -row - 1]
-            pages.append(Page(size, low, low + room, f"{row + 1}/{column + 1}"))
-    return [page for page in pages if len(pages) == 1 or any(drawn_on(drawing, page))] or pages[:1]
+            pages.append(Page(size, low, low + room, f"{row + 1}/{column + 1}", is_alone))
+    return [page for page in pages if is_alone or has_something(drawing, page)]
 
 
 def needed(map_size: "Floats", paper: "Floats") -> Any:
     """Count the pages beside and below each other."""
-    return np.maximum(np.ceil(map_size / (paper - AROUND)), 1.0).astype(np.intp)
+    return np.maximum(np.ceil(map_size / (paper - AROUND) - NEARLY), 1.0).astype(np.intp)
+
+
+def has_something(drawing: "Drawing", page: Page) -> bool:
+    """Whether there is anything on a page."""
+    box = shapely.box(*page.low, *page.high)
+    places = [trouble.where for trouble in drawing.problems]
+    return bool(shapely.intersects(box, places).any()) or any(drawn_on(drawing, page))
 
 
 def drawn_on(drawing: "Drawing", page: Page) -> "Iterator[Any]":
@@ -176,7 +190,7 @@ def figure_of(drawing: "Drawing", page: Page) -> "Figure":
 
 
 def draw_object(axes: "Axes", symbols: Any, page: Page, millimetre: float) -> None:
-    """Draw the symbols of an object."""
+    """Draw the symbols of an object; on the only page nothing is clipped, half a line neither."""
     from matplotlib.collections import LineCollection, PolyCollection
 
     def placed(geometries: Any) -> "list[Floats]":
@@ -189,6 +203,7 @@ def draw_object(axes: "Axes", symbols: Any, page: Page, millimetre: float) -> No
         (symbols.lines, known.stroke_width, "solid"),
     ):
         ends: dict[str, Any] = {"capstyle": "butt", "joinstyle": "miter", "linestyles": [style]}
+        ends["clip_on"] = not page.is_alone
         axes.add_collection(
             LineCollection(placed(lines), colors=known.colour, linewidths=width / POINT, **ends)
         )
@@ -216,11 +231,8 @@ def draw_footer(axes: "Axes", drawing: "Drawing", page: Page) -> None:
     label = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
     axes.text(0.5 * (left + right), middle - 2.5, label, ha="center", **style)
     names = ", ".join(drawing.standards)
-    told = (
-        f"1:{drawing.scale:,g}   {page.name}   {names}"
-        if page.name != "1/1"
-        else f"1:{drawing.scale:,g}   {names}"
-    )
+    number = "" if page.is_alone else f"page {page.name}   "
+    told = f"1:{drawing.scale:,g}   {number}{names}"
     text = axes.text(MARGIN, middle, told, ha="left", **style)
     room = (left - 2.0 * MARGIN) / POINT
     width = text.get_window_extent().width * 72.0 / axes.figure.dpi
