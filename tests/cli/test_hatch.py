@@ -102,6 +102,27 @@ def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midri
     assert len(pyogrio.read_dataframe(out, layer="strokes")) > 20
 
 
+def test_a_standard_of_ones_own_is_given_by_its_file(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    own = tmp_path / "house.toml"
+    text = 'title = "House"\nsource = "us"\nconfidence = "read"\nbase = "pl-2015-dyke"\n'
+    own.write_text(
+        text + 'kinds = ["other", "slope-unreinforced"]\nspacing = 6.0\n', encoding="utf-8"
+    )
+    out = tmp_path / "out.gpkg"
+    assert (
+        midrib("hatch", slopes, out, "--top", "crest", "--standard", own, "--rule", "paper").code
+        == 0
+    )
+    found = pyogrio.read_dataframe(out, layer="strokes")
+    assert set(found["standard"]) == {"house"}
+    own.write_text(text + "spacing = -1\n", encoding="utf-8")
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--standard", own, "--overwrite")
+    assert outcome.code == 2
+    assert "house.toml': key 'spacing' is -1, expected a length above 0" in outcome.err
+
+
 def test_objects_of_other_kinds_are_left_out_with_a_note(
     slopes: Path, tmp_path: Path, midrib: Runner
 ) -> None:

@@ -19,7 +19,7 @@ from shapely import LineString
 from midrib import standard
 from midrib.errors import ParameterError
 from midrib.formats.crs import system_of
-from midrib.formats.drawing.content import LINES, PROBLEMS, Drawing, layers_of
+from midrib.formats.drawing.content import LINES, PROBLEMS, Drawing, Trouble, layers_of
 from midrib.formats.drawing.qgis import style_of
 from midrib.formats.drawing.sheet import AROUND, MARGIN, pages_of
 from midrib.formats.drawing.write import check_places, write_drawing
@@ -291,6 +291,35 @@ def test_pages_cover_the_map_without_overlap() -> None:
     names = [page.name for page in pages_of(content, "A3")]
     assert names[0] == "1/1"
     assert len(set(names)) == len(names)
+
+
+def test_a_lone_page_clips_nothing_and_pages_of_many_do(tmp_path: Path) -> None:
+    text = written(tmp_path, "svg").read_text(encoding="utf-8")
+    assert "clip-path" not in text.partition('<g id="axes_2">')[0]
+    pages = pages_of(drawing(scale=100.0), "A4")
+    assert [page.is_alone for page in pages] == [False] * 3
+
+
+def test_a_page_with_a_problem_only_is_there() -> None:
+    content = only(drawing(scale=20.0), "s1")
+    number = len(pages_of(content, "A4"))
+    far = shapely.Point(EAST + 90.0, NORTH + 90.0)
+    content.problems.append(Trouble("far", "no way through", far))
+    pages = pages_of(content, "A4")
+    assert len(pages) >= number + 1
+    assert any(shapely.box(*page.low, *page.high).covers(far) for page in pages)
+
+
+def test_a_map_as_large_as_its_paper_takes_one_page() -> None:
+    room = np.array([297.0, 210.0]) - AROUND
+    content = only(drawing(), "s1")
+    content.problems = [
+        Trouble("a", "", shapely.Point(0.0, 0.0)),
+        Trouble("b", "", shapely.Point(room / 2.0)),
+    ]
+    content.objects = []
+    (page,) = pages_of(content, "A4")
+    assert page.is_alone
 
 
 def test_a_sheet_that_is_too_large_asks_for_pages() -> None:

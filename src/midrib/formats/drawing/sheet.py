@@ -198,16 +198,17 @@ def draw_object(axes: "Axes", symbols: Any, page: Page, millimetre: float) -> No
 
     known = symbols.standard
     dashes = tuple(length / POINT for length in known.outline_dash)
+    clips = not page.is_alone
     for lines, width, style in (
         (symbols.edges, known.outline_width, (0.0, dashes or None)),
         (symbols.lines, known.stroke_width, "solid"),
     ):
         ends: dict[str, Any] = {"capstyle": "butt", "joinstyle": "miter", "linestyles": [style]}
-        ends["clip_on"] = not page.is_alone
+        ends["clip_on"] = clips
         axes.add_collection(
             LineCollection(placed(lines), colors=known.colour, linewidths=width / POINT, **ends)
         )
-    areas = PolyCollection(placed(symbols.areas), facecolors=known.colour, edgecolors="none")
+    areas = PolyCollection(placed(symbols.areas), fc=known.colour, ec="none", clip_on=clips)
     axes.add_collection(areas)
 
 
@@ -216,6 +217,7 @@ def draw_problems(axes: "Axes", drawing: "Drawing", page: Page) -> None:
     places = [trouble.where for trouble in drawing.problems if trouble.where is not None]
     x, y = ((shapely.get_coordinates(places) - page.low) / drawing.millimetre).T
     style: dict[str, Any] = {"ls": "none", "marker": "o", "mfc": "none", "mec": PROBLEM, "mew": 0.5}
+    style["clip_on"] = not page.is_alone
     axes.plot(x, y, ms=DOT / POINT, **style)
 
 
