@@ -289,7 +289,7 @@ def test_pages_cover_the_map_without_overlap() -> None:
         flat = drawn.symbols.flat()
         assert shapely.covers(covered.buffer(1e-6), [*flat.lines, *flat.areas, *flat.edges]).all()
     names = [page.name for page in pages_of(content, "A3")]
-    assert names[0] == "1/1"
+    assert names[0] == "row 1, column 1"
     assert len(set(names)) == len(names)
 
 

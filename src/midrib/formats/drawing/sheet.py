@@ -134,7 +134,9 @@ def pages_of(drawing: "Drawing", paper: str | None) -> list[Page]:
     for row in range(counts[1]):
         for column in range(counts[0]):
             low = corner + room * [column, -row - 1]
-            pages.append(Page(size, low, low + room, f"{row + 1}/{column + 1}", is_alone))
+            pages.append(
+                Page(size, low, low + room, f"row {row + 1}, column {column + 1}", is_alone)
+            )
     return [page for page in pages if is_alone or has_something(drawing, page)]
 
 
@@ -233,7 +235,7 @@ def draw_footer(axes: "Axes", drawing: "Drawing", page: Page) -> None:
     label = f"{length / 1000.0:g} km" if length >= 1000.0 else f"{length:g} m"
     axes.text(0.5 * (left + right), middle - 2.5, label, ha="center", **style)
     names = ", ".join(drawing.standards)
-    number = "" if page.is_alone else f"page {page.name}   "
+    number = "" if page.is_alone else f"{page.name}   "
     told = f"1:{drawing.scale:,g}   {number}{names}"
     text = axes.text(MARGIN, middle, told, ha="left", **style)
     room = (left - 2.0 * MARGIN) / POINT
