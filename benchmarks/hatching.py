@@ -28,6 +28,7 @@ Ends = tuple[Floats, Floats]
 PAGE = ROOT / "docs" / "hatching.md"
 BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 SEED, COUNT = 1000, 1200
+PICTURED = ("L_top_outer", "s_curve", "bay", "spur_bottom")
 HEAD = (
     "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
     "spacing within 0.9 to 1.1", "worst spacing", "worst gap on top, toe", "least foot",
@@ -41,6 +42,7 @@ class Row(NamedTuple):
     name: str
     strip: Strip
     hatching: Hatching | None
+    strokes: NDArray[np.object_]
     measures: Measures
     problems: int
 
@@ -129,7 +131,7 @@ def rival_row(name: str, slope: Slope, draw: Callable[[Strip, Floats], Ends]) ->
     rule = Rule(factor=None, spacing=gap)
     middle = LineString(middle_of(strip).line)
     found = measure_strokes(strip, rule, middle, strokes, is_long, on_top, on_toe)
-    return Row(f"{name}: {slope.name}", strip, None, found, 0)
+    return Row(f"{name}: {slope.name}", strip, None, strokes, found, 0)
 
 
 # -- tables ----------------------------------------------------------------------------------------
@@ -140,9 +142,9 @@ def hatched(slopes: Iterable[Slope], **options: Any) -> list[Row]:
     rows = []
     for slope in slopes:
         hatching = hatch(slope.strip, **options)
-        rows.append(
-            Row(slope.name, slope.strip, hatching, measure(hatching), len(hatching.problems))
-        )
+        found = measure(hatching)
+        count = len(hatching.problems)
+        rows.append(Row(slope.name, slope.strip, hatching, hatching.strokes, found, count))
     return rows
 
 
@@ -267,6 +269,38 @@ def worst_sheet(rows: list[Row], path: Path, count: int = 12) -> None:
     plt.close(figure)
 
 
+def picture(made: list[Slope], path: Path) -> None:
+    """Draw some shapes by clipped normals, by nearest points and by matching, with one gap."""
+    import matplotlib as mpl
+
+    mpl.use("Agg")
+    mpl.rcParams["svg.hashsalt"] = "midrib"
+    import matplotlib.pyplot as plt
+
+    some = [slope for slope in made if slope.name in PICTURED]
+    ways = [(name, RIVALS[name]) for name in list(RIVALS)[:3:2]]
+    figure, axes = plt.subplots(len(some), 3, figsize=(12, 2.6 * len(some)))
+    for plots, slope in zip(axes, some, strict=True):
+        drawn = [rival_row(name, slope, draw) for name, draw in ways] + evenly([slope])
+        for plot, row, title in zip(
+            plots, drawn, (*(name for name, _ in ways), "matching"), strict=True
+        ):
+            for line, colour in (
+                (slope.strip.main, "tab:red"),
+                (slope.strip.auxiliary, "tab:blue"),
+            ):
+                plot.plot(*shapely.get_coordinates(line).T, color=colour, linewidth=1)
+            ends = shapely.get_coordinates(row.strokes).reshape(-1, 2, 2)
+            for stroke in ends:
+                plot.plot(*stroke.T, color="black", linewidth=0.8)
+            plot.set_title(title, fontsize=9)
+            plot.set_aspect("equal")
+            plot.axis("off")
+    figure.tight_layout()
+    figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
+
+
 def main() -> int:
     """Measure, write the page, draw the sheet."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -308,6 +342,7 @@ def main() -> int:
         write_json(
             ROOT / "benchmarks" / "results" / "hatching.json", {"groups": groups, "rivals": rivals}
         )
+        picture(made, ROOT / "docs" / "pictures" / "hatching.svg")
     worst_sheet(rows + polish, ROOT / "out" / "hatching.png")
     return 0
 

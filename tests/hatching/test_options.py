@@ -181,8 +181,9 @@ def test_editing_refuses_what_cannot_be() -> None:
         ({"first": "long one"}, "first is 'long one'"),
         ({"offset": 0}, "offset is 0"),
         ({"stiffness": None}, "stiffness is None"),
+        ({"rule": "paper", "offset": 0.5}, "rule='paper' has no start, offset"),
         ({"end_strokes": 1}, "end_strokes is 1, expected True or False"),
-        ({"scale": 1e-9}, "more than 10000000 strokes"),
+        ({"scale": 1e-9}, "more than 1000000 strokes"),
     ],
 )
 def test_wrong_options_are_refused(options: dict[str, Any], message: str) -> None:

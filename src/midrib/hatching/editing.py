@@ -53,8 +53,9 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
     Examples
     --------
     >>> hatching = hatch(split(box(0, 0, 12, 4)), scale=500)
-    >>> add_stroke(hatching, (3, 1)).strokes[1].wkt
-    'LINESTRING (3 0, 3 4)'
+    >>> from midrib.hatching import add_stroke
+    >>> add_stroke(hatching, (3, 1)).on_top[:, 0].round(6)
+    array([ 2.,  3.,  4.,  6.,  8., 10.])
     """
     ground = ground_of(hatching)
     point = position(at, "at")

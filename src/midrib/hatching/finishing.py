@@ -34,7 +34,14 @@ class Finished(NamedTuple):
 
 
 def finish(
-    drawn: Drawn, rule: Rule, least: float, first: str | None, zones: Any, strip: Strip
+    drawn: Drawn,
+    rule: Rule,
+    least: float,
+    first: str | None,
+    zones: Any,
+    strip: Strip,
+    *,
+    keep_apart: bool,
 ) -> Finished:
     """Decide what is drawn.
 
@@ -48,12 +55,14 @@ def finish(
         reason = f"the slope is nowhere as wide as the shortest stroke, {least:.3g}; none is drawn"
         problems.append(Problem(Point(middle), reason))
     gap = rule.gaps(width)
-    kept &= ~too_near(drawn, kept, gap, problems)
+    if keep_apart:
+        kept &= ~too_near(drawn, kept, gap, problems)
     is_long = np.zeros(kept.size, dtype=np.bool_)
     letters = pattern_from(rule.pattern, first)
     is_long[kept] = [letters[k % len(letters)] == "L" for k in range(np.count_nonzero(kept))]
     share = np.where(is_long, 1.0, rule.short_ratio)
-    shorten(drawn, kept & is_long, gap, share, problems)
+    if keep_apart:
+        shorten(drawn, kept & is_long, gap, share, problems)
     hide(drawn, kept, share, zones, strip, problems)
     return Finished(kept, is_long, share, problems)
 

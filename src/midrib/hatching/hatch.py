@@ -111,8 +111,9 @@ def hatch(
         The map's scale is 1 : ``scale``.
     rule : {"matching", "paper"}, default "matching"
         "matching" is the engine described here. "paper" is the procedure of the paper, for
-        comparison: from each point of the top to the nearest of the toe that it sees; such
-        strokes may share feet.
+        comparison: from the first point of the top on, to the nearest point of the toe that is
+        seen; such strokes may share feet and cross. It has no start, offset, end strokes and
+        stiffness.
     metres_per_unit : float, default 1
         Length of a unit of the coordinates.
     factor : float, optional
@@ -163,10 +164,10 @@ def hatch(
     Notes
     -----
     1. The centred curve of minimal radii of the slope is the middle line. 2. Directions along it
-    are the smoothing spline of its normals. 3. The gap that the rule asks
-    for, b = clamp(factor w, least, largest), is integrated along the line: strokes lie where the
-    integral of 1 / b passes whole numbers, after stretching to a whole count of gaps. 4. From
-    each point on the line the stroke goes both ways until it meets the boundary. 5. Where strokes
+    are the smoothing spline of its normals. 3. The rule asks for the gap
+    g(w) = clamp(factor w, least, largest) beside a stroke of length w. Between two neighbours lies
+    the mean of what both ask for, times one factor that makes the count of gaps whole. 4. From its
+    point on the line each stroke goes both ways until it meets the boundary. 5. Where strokes
     would not advance on both edges, a run of them chooses other directions. Time is nearly linear
     in vertices and strokes.
 
@@ -182,8 +183,10 @@ def hatch(
     Examples
     --------
     >>> hatching = hatch(split(box(0, 0, 12, 4)), scale=500)
-    >>> [stroke.wkt for stroke in hatching.strokes[:2]]
-    ['LINESTRING (2 0, 2 4)', 'LINESTRING (4 0, 4 2)']
+    >>> hatching.on_top[:, 0].round(6)
+    array([ 2.,  4.,  6.,  8., 10.])
+    >>> shapely.length(hatching.strokes).round(6)
+    array([4., 2., 4., 2., 4.])
     """
     if not isinstance(strip, Strip):
         kind = getattr(strip, "geom_type", type(strip).__name__)
@@ -203,10 +206,13 @@ def hatch(
     zones = zones_of(exclude)
     where: Ground | None = None
     if rule == "paper":
+        if (start, offset, end_strokes, stiffness) != ("left", 1.0, False, STIFFNESS):
+            msg = "rule='paper' has no start, offset, end_strokes and stiffness, found one of them"
+            raise ParameterError(msg)
         drawn = draw_by_paper(strip, ground)
     else:
         drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness)
-    finished = finish(drawn, ground, least, first, zones, strip)
+    finished = finish(drawn, ground, least, first, zones, strip, keep_apart=rule != "paper")
     return assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )

@@ -18,7 +18,7 @@ __all__ = ["Drawn", "Ground", "Start", "draw_by_matching", "drawn_of"]
 
 Start: TypeAlias = Literal["left", "right", "first", "last"]
 TAU, THETA, GAP = 0, 4, 6  # columns of rungs
-MOST_STROKES = 10_000_000
+MOST_STROKES = 1_000_000  # the ladder has eight rungs for each, and holds 2^24
 UNMATCHED = "no straight stroke from top to toe goes on along both edges here; one is left out"
 
 
@@ -151,7 +151,7 @@ def station_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float
 
 def calmest(strokes: Strokes, periods: Floats) -> int:
     """Row in the middle of the longest run of strokes that advance on both edges as they should."""
-    ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods
+    ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods[:2]
     shares = ahead / strokes.pivot[:, 5:]
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
     is_calm &= (shares > LEAST_FOOT).all(axis=1) & (shares < MOST_FOOT).all(axis=1)

@@ -44,9 +44,10 @@ class Middle(NamedTuple):
 
     @property
     def periods(self) -> Floats:
-        """Lengths of closed edges, 0 of open ones."""
-        lengths = np.array([self.top.arc[-1], self.toe.arc[-1]])
-        return lengths if self.is_closed else np.zeros(2)
+        """Lengths of top, toe and line of a closed slope, 0 of an open one."""
+        total = np.hypot(*np.diff(self.line, axis=0).T).sum()
+        lengths = np.array([self.top.arc[-1], self.toe.arc[-1], total])
+        return lengths if self.is_closed else np.zeros(3)
 
 
 def middle_of(strip: Strip) -> Middle:

@@ -38,10 +38,30 @@ LEVELS = 3
 
 
 @njit(borrows=True)
-def advance(low: float, high: float, period: float) -> float:
-    """How far the second station is ahead of the first; round a closed edge the shorter way."""
-    ahead = high - low
-    return ahead - period * np.round(ahead / period) if period > 0.0 else ahead
+def advance(
+    strokes: Strokes, i: int, j: int, low: float, high: float, edge: int, periods: Floats
+) -> float:
+    """How far a foot of stroke j at station ``high`` is ahead of one of stroke i at ``low``.
+
+    Round a closed edge, of all ways that differ by whole turns the one that is next to that of
+    the pivots.
+    """
+    ahead, period = high - low, periods[edge]
+    if period <= 0.0:
+        return ahead
+    way = (strokes.pivot[j, 0] - strokes.pivot[i, 0]) / periods[2]
+    expected = (way - np.floor(way)) * period
+    return ahead - period * np.round((ahead - expected) / period)
+
+
+@njit(borrows=True)
+def is_ahead(strokes: Strokes, i: int, j: int, periods: Floats) -> bool:
+    """Whether stroke j is ahead of stroke i on both edges and has no point in common with it."""
+    for edge in range(2):
+        low, high = strokes.chord[i, edge], strokes.chord[j, edge]
+        if advance(strokes, i, j, low, high, edge, periods) <= 0.0:
+            return False
+    return not crosses(strokes.chord, i, j)
 
 
 @njit(borrows=True)
@@ -57,7 +77,8 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
         return False
     gap = (strokes.pivot[i, 5] + strokes.pivot[i + 1, 5]) / 2.0
     for edge in range(2):
-        ahead = advance(strokes.chord[i, edge], strokes.chord[i + 1, edge], periods[edge])
+        low, high = strokes.chord[i, edge], strokes.chord[i + 1, edge]
+        ahead = advance(strokes, i, i + 1, low, high, edge, periods)
         if not LEAST_FOOT * gap <= ahead <= MOST_FOOT * gap:
             return False
     return True
@@ -126,15 +147,16 @@ def choose(
                 for d in range(m):
                     if np.isinf(cost[before, d]):
                         continue
-                    ahead = advance(foot[before, d, 0], foot[k, c, 0], periods[0])
-                    beside = advance(foot[before, d, 1], foot[k, c, 1], periods[1])
+                    j = first + before
+                    ahead = advance(strokes, j, i, foot[before, d, 0], foot[k, c, 0], 0, periods)
+                    beside = advance(strokes, j, i, foot[before, d, 1], foot[k, c, 1], 1, periods)
                     if ahead <= 0.0 or beside <= 0.0:
                         continue
-                    turn = tilt - (theta[before, d] - strokes.pivot[first + before, 3])
+                    turn = tilt - (theta[before, d] - strokes.pivot[j, 3])
                     way = (
                         cost[before, d]
                         + tilt * tilt
-                        + cost_of_step(strokes, first + before, i, turn, ahead, beside, stiffness)
+                        + cost_of_step(strokes, j, i, turn, ahead, beside, stiffness)
                     )
                     if way < cost[k, c]:
                         cost[k, c], came[k, c] = way, before * m + d
@@ -200,8 +222,8 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     ----------
     ladder : what they were drawn on
     strokes : in order along the middle line
-    periods : (2,) lengths of closed edges, 0 of open ones; the last stroke is then followed by the
-        first, which must be calm
+    periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one; on a
+        closed one the last stroke is followed by the first, which must be calm
     stiffness : as for the ladder
 
     Returns
@@ -238,12 +260,12 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
             continue
         kept[i] = leads_down(strokes, i) and is_inside(ladder.ground.mesh, strokes, i)
         if kept[i] and before >= 0:
-            kept[i] = not crosses(strokes.chord, before, i)
+            kept[i] = is_ahead(strokes, before, i, periods)
         if kept[i]:
             before = i
     if periods[0] > 0.0 and before > 0:
         for i in range(n):
             if kept[i]:
-                kept[before] = not crosses(strokes.chord, before, i)
+                kept[before] = i == before or is_ahead(strokes, before, i, periods)
                 break
     return kept
