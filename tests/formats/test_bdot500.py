@@ -233,9 +233,9 @@ def test_stairs_of_the_building_register_are_read(tmp_path: Path) -> None:
     feature = (
         f'<egb:EGB_ObiektTrwaleZwiazanyZBudynkiem gml:id="s"><egb:geometria><gml:Polygon {ZONE_6}>'
         f"{SLOPE}</gml:Polygon></egb:geometria><egb:rodzajObiektuZwiazanegoZBudynkiem>s"
-        f"</egb:rodzajObiektuZwiazanegoZBudynkiem><egb:poliliniaKierunkowa><gml:LineString {ZONE_6}>"
-        f"<gml:posList>{line}</gml:posList></gml:LineString></egb:poliliniaKierunkowa>"
-        "</egb:EGB_ObiektTrwaleZwiazanyZBudynkiem>"
+        "</egb:rodzajObiektuZwiazanegoZBudynkiem><egb:poliliniaKierunkowa>"
+        f"<gml:LineString {ZONE_6}><gml:posList>{line}</gml:posList></gml:LineString>"
+        "</egb:poliliniaKierunkowa></egb:EGB_ObiektTrwaleZwiazanyZBudynkiem>"
     )
     spaces = 'xmlns:egb="ewidencjaGruntowIBudynkow:1.0"'
     (slope,), _ = read_slopes(collection(tmp_path / "a.gml", spaces, feature))
