@@ -228,6 +228,21 @@ def test_walls_and_stairs_follow_their_directional_polyline(
     assert [*slope.top.coords] == [CORNERS[1], CORNERS[0], CORNERS[3]]
 
 
+def test_stairs_of_the_building_register_are_read(tmp_path: Path) -> None:
+    line = " ".join(f"{y} {x}" for x, y in CORNERS[:2])
+    feature = (
+        f'<egb:EGB_ObiektTrwaleZwiazanyZBudynkiem gml:id="s"><egb:geometria><gml:Polygon {ZONE_6}>'
+        f"{SLOPE}</gml:Polygon></egb:geometria><egb:rodzajObiektuZwiazanegoZBudynkiem>s"
+        "</egb:rodzajObiektuZwiazanegoZBudynkiem><egb:poliliniaKierunkowa>"
+        f"<gml:LineString {ZONE_6}><gml:posList>{line}</gml:posList></gml:LineString>"
+        "</egb:poliliniaKierunkowa></egb:EGB_ObiektTrwaleZwiazanyZBudynkiem>"
+    )
+    spaces = 'xmlns:egb="ewidencjaGruntowIBudynkow:1.0"'
+    (slope,), _ = read_slopes(collection(tmp_path / "a.gml", spaces, feature))
+    assert slope.kind == "stairs"
+    assert [*slope.top.coords] == CORNERS[:2]
+
+
 def test_areas_without_a_direction_are_passed_over(tmp_path: Path) -> None:
     feature = (
         f'<ot:OT_Wody gml:id="w"><ot:geometria><gml:Polygon {ZONE_6}>{SLOPE}</gml:Polygon>'

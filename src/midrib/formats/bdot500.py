@@ -27,9 +27,10 @@ if TYPE_CHECKING:
     from midrib.hatching.edges import Edges
     from midrib.types import Floats
 
-__all__ = ["BASIC_MODEL", "DATABASE", "kind_of", "read_bdot500", "read_drawn"]
+__all__ = ["BASIC_MODEL", "DATABASES", "kind_of", "read_bdot500", "read_drawn"]
 
-DATABASE = "bazaDanychObiektowTopograficznych500"  # in the namespaces of both models
+# In the namespaces of both models; stairs are in the land and building register too.
+DATABASES = ("bazaDanychObiektowTopograficznych500", "ewidencjaGruntow")
 BASIC_MODEL, DRAWN = "modelPodstawowy", "geometriaKarto"  # of cartographic objects, 2015
 MODEL_2015 = "urn:"  # how the older namespaces begin
 KINDS_BY_WORD: dict[str, SlopeKind] = {  # model of 2015

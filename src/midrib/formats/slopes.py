@@ -89,7 +89,7 @@ def read_slopes(
     hints = Hints(layer, top, toe, start, end)
     if path.suffix.lower() in XML and hints == Hints():
         spaces = " ".join(gml.namespaces(path))
-        if bdot500.DATABASE in spaces:
+        if any(name in spaces for name in bdot500.DATABASES):
             return bdot500.read_bdot500(path, history=history)
         if bgt.MODEL in spaces:
             return bgt.read_bgt(path, history=history)

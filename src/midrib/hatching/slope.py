@@ -27,7 +27,7 @@ SlopeKind: TypeAlias = Literal[
 KINDS: tuple[SlopeKind, ...] = SlopeKind.__args__  # type: ignore[attr-defined]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Slope:
     """An area that falls from its top to its toe.
 
