@@ -12,46 +12,69 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
+    from midrib.formats.drawing.slopes import draw_slopes
+    from midrib.formats.drawing.write import write_drawing
+    from midrib.formats.slopes import Slope, read_slopes
+    from midrib.hatching.checking import Finding, check_slopes
     from midrib.hatching.hatch import Hatching, hatch
+    from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
 __all__ = [
     "Curve",
+    "Finding",
     "Hatching",
     "Joint",
     "Problem",
     "Profile",
+    "Slope",
     "SpaceCurve",
+    "Standard",
     "Strip",
     "add_widths",
+    "check_slopes",
     "collapse",
+    "draw_slopes",
     "hatch",
     "measures",
     "methods",
     "minimal_radii",
     "minimal_radii_3d",
     "profile",
+    "read_slopes",
     "split",
+    "standard",
+    "standards",
+    "write_drawing",
 ]
 
 HOME = {
     "Curve": "midrib.curves.minimal_radii",
+    "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
+    "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
+    "Standard": "midrib.hatching.standards",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
+    "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
+    "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
     "profile": "midrib.profiles",
+    "read_slopes": "midrib.formats.slopes",
     "split": "midrib.strip",
+    "standard": "midrib.hatching.standards",
+    "standards": "midrib.hatching.standards",
+    "write_drawing": "midrib.formats.drawing.write",
 }
 
 

@@ -43,15 +43,18 @@ INPUTS: dict[str, tuple[list[str | None], int, int]] = {
 }
 TWICE: list[list[str | None]] = [[BOW_TIE], []]  # a run that refuses one, and one that does not
 COMMANDS = {
+    "check": ["check", "IN", "-o", "OUT", "--top", "name", "--quiet"],
     "collapse": ["collapse", "IN", "OUT", "--quiet"],
     "methods": ["methods"],
     "profile": ["profile", "IN", "OUT", "--quiet"],
+    "standards": ["standards"],
 }
+OF_SLOPES = {"hatch"}  # commands that take slopes: see test_hatch.py
 
 
 def test_the_table_has_every_command() -> None:
     names = {command.name or command.callback.__name__ for command in app.registered_commands}  # type: ignore[union-attr]
-    assert names == set(COMMANDS)
+    assert names == set(COMMANDS) | OF_SLOPES
 
 
 @pytest.mark.parametrize("ending", ["gpkg", "parquet", "geojson"])
@@ -70,6 +73,10 @@ def test_commands_write_whole_files(
         return
     if case == "empty" and ending == "geojson":
         assert outcome.code in {0, 2}  # a GeoJSON file of nothing does not say what it is of
+        return
+    if command == "check":  # a field that has no tops in it
+        assert outcome.code == (1 if areas else 0), outcome.err
+        assert read_all(out)[1]["check"].to_pylist() == ["refused"] * len(areas)
         return
     assert outcome.code == (1 if n_refused else 0), outcome.err
     assert (outcome.out, outcome.err) == ("", "")

@@ -8,7 +8,7 @@ import pytest
 import shapely
 from shapely import LineString
 
-from midrib.cli.guides import PlacedGuides, line_of_text
+from midrib.formats.guides import PlacedGuides, line_of_text
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, read_all

@@ -12,7 +12,8 @@ import pytest
 
 import midrib
 
-PAGES = {"midrib": [], "collapse": ["collapse"], "methods": ["methods"], "profile": ["profile"]}
+NAMES = ("check", "collapse", "hatch", "methods", "profile", "standards")
+PAGES: dict[str, list[str]] = {"midrib": []} | {name: [name] for name in NAMES}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")
 
 

@@ -5,7 +5,9 @@ from typing import Annotated
 import typer
 
 from midrib import __version__
+from midrib.cli.check import check
 from midrib.cli.collapse import collapse
+from midrib.cli.hatch import hatch
 from midrib.cli.profile import profile
 
 __all__ = ["app"]
@@ -40,6 +42,29 @@ app.command(
     epilog="Examples:\n\nmidrib profile rivers.gpkg widths.csv --spacing 10m --id name\n\n"
     "midrib profile rivers.gpkg stations.gpkg --figure widths.svg",
 )(profile)
+app.command(
+    help="Check slopes before they are hatched: a table of what is wrong with them, and where.\n\n"
+    "refused: no slope, for want of a top, an area or good coordinates; swapped: the top is lower "
+    "than the toe, by known heights; off-ring: an edge, its start or its end is off the boundary; "
+    "orientation: doubtful which edge is the top; unmatched: no strokes lead from top to toe in "
+    "some place; crossing: strokes of --strokes cross or lie on each other.\n\n"
+    "Exit code 0: nothing found; 1: something found; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib check BDOT500.gml -o findings.gpkg --figure findings.svg\n\n"
+    "midrib check slopes.gpkg --layer slope --top crest:slope_id --strokes hatching\n\n"
+    "midrib check map.dxf --top SLOPE_TOP --toe SLOPE_TOE",
+)(check)
+app.command(
+    help="Hatch slopes at map scale: strokes from top to toe that never cross, as a standard has "
+    "them; and draw walls, stairs and conveyors.\n\n"
+    "Layers: strokes, symbols (filled), outlines, problems. Columns of strokes: area (identifier "
+    "in the register), kind, standard, stroke (number along the top), is_long, width (of the "
+    "slope there) and length. Slopes that are refused are listed and in the layer, or file, "
+    "problems, with the reason.\n\n"
+    "Exit code 0: done; 1: some slopes refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib hatch bdot500.gml map.gpkg --standard pl-2015 --scale 500\n\n"
+    "midrib hatch bgt.gml map.pdf --standard de-general --scale 1000 --paper A3\n\n"
+    "midrib hatch slopes.gpkg map.dxf --top crest:slope_id --symbol wedge",
+)(hatch)
 
 
 def show_version(is_asked: bool) -> None:
@@ -70,6 +95,23 @@ def methods() -> None:
     for method in midrib.methods():
         able = ("yes" if it else "no" for it in (method.supports_holes, method.is_exact))
         rows.append((method.name, method.source, *able, method.cost))
+    show(rows)
+
+
+@app.command()
+def standards() -> None:
+    """List the standards of hatching: name, symbol, confidence in its figures, what it is for."""
+    import midrib
+
+    rows: list[tuple[str, ...]] = [("name", "symbol", "confidence", "for", "source")]
+    for standard in midrib.standards():
+        texts = (standard.name, standard.symbol, standard.confidence)
+        rows.append((*texts, ", ".join(standard.kinds), standard.source))
+    show(rows)
+
+
+def show(rows: list[tuple[str, ...]]) -> None:
+    """Print a table, its heading first."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))

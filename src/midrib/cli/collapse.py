@@ -40,10 +40,10 @@ def collapse(
     quiet: cli.Quiet = False,
 ) -> None:
     """Collapse areas to lines: one line without branches inside each."""
-    from midrib.cli.guides import guides_for
     from midrib.cli.job import Results, check_options, collapse_layer
     from midrib.cli.output import Places, draw
     from midrib.cli.report import Report
+    from midrib.formats.guides import guides_for
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in
 

@@ -20,8 +20,8 @@ from midrib.ragged import without_holes
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from midrib.cli.guides import Guides
     from midrib.cli.report import Report
+    from midrib.formats.guides import Guides
     from midrib.formats.reading import Batch, Geometries, Source
     from midrib.types import Floats, Ints
 

@@ -18,31 +18,66 @@ __all__ = [
     "ChannelOption",
     "Connect",
     "Count",
+    "DrawingOut",
+    "DrawingRule",
+    "End",
     "EndClearance",
     "EndRule",
+    "EndStrokes",
     "EndsOption",
+    "Exclude",
+    "Factor",
+    "FindingsFigure",
+    "FindingsOut",
+    "First",
+    "From",
+    "Gap",
+    "History",
     "Holes",
     "HolesOption",
     "Identifier",
+    "LargestGap",
     "Layer",
+    "LeastGap",
+    "LeastLength",
+    "Letter",
     "LineFigure",
     "LinesOut",
     "Main",
+    "MapScale",
     "Mean",
     "MeanOption",
     "Method",
+    "Offset",
     "OutLayer",
     "Overwrite",
+    "PaperSize",
+    "Pattern",
     "Percent",
     "Quiet",
+    "RuleOption",
+    "Scale",
+    "ShortRatio",
     "Simplify",
+    "SlopesIn",
     "Smooth",
     "Source",
     "Spacing",
+    "Standard",
+    "StandardName",
+    "Start",
+    "StartSide",
     "StationSpacing",
+    "Stiffness",
+    "StrokeWidth",
+    "Strokes",
+    "Symbol",
+    "SymbolWidth",
     "TableFigure",
     "TableOut",
+    "Toe",
     "Tolerance",
+    "Top",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -96,9 +131,34 @@ class WidthPlace(StrEnum):
     m = "m"
 
 
+class StartSide(StrEnum):
+    """Where a pattern of strokes starts."""
+
+    left = "left"
+    right = "right"
+    first = "first"
+    last = "last"
+
+
+class Letter(StrEnum):
+    """Lengths of strokes."""
+
+    long = "long"
+    short = "short"
+
+
+class DrawingRule(StrEnum):
+    """How strokes are found."""
+
+    matching = "matching"
+    paper = "paper"
+
+
 argument = partial(typer.Argument, show_default=False)
 of_layers = partial(typer.Option, rich_help_panel="Which features")
 of_table = partial(typer.Option, rich_help_panel="What the table holds")
+of_check = partial(typer.Option, rich_help_panel="What is checked")
+of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, lengths in mm on paper")
 of_line = partial(typer.Option, rich_help_panel="How the line is made")
 of_care = partial(typer.Option, rich_help_panel="After-care")
 of_output = partial(typer.Option, rich_help_panel="Output")
@@ -134,6 +194,66 @@ Main: TypeAlias = Annotated[
         "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
     ),
 ]
+
+# Which slopes
+
+SlopesIn: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="IN",
+        help="Register of slopes: BDOT500 or BGT (.gml), a drawing (.dxf), or any vector file with "
+        "areas and what tells their tops.",
+    ),
+]
+Top: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER[:ID]|FIELD",
+        help="Lines along the tops: a layer of IN, matched by place or by a common field ID; or a "
+        "field with WKT. Of a drawing: its layers, with wildcards.",
+    ),
+]
+Toe: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="LAYER",
+        help="Lines along the toes, where IN has lines and no areas; --top is a layer then too.",
+    ),
+]
+Start: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="X,Y|LAYER:ID",
+        help="Where the tops start, in the order the rings are stored in: two fields, or a layer "
+        "of points with a common field ID.",
+    ),
+]
+End: TypeAlias = Annotated[
+    str | None, of_layers(metavar="X,Y|LAYER:ID", help="Where the tops end, likewise.")
+]
+History: TypeAlias = Annotated[
+    bool, of_layers("--history", metavar="", help="Objects too that have ended.")
+]
+
+Exclude: TypeAlias = Annotated[
+    Path | None,
+    of_layers("--exclude", metavar="FILE", help="Vector file with areas that no stroke may enter."),
+]
+
+# What is checked
+
+Strokes: TypeAlias = Annotated[
+    str | None,
+    of_check(
+        metavar="LAYER|FILE[:LAYER]",
+        help="Strokes that are drawn already, in IN or in another file: do any cross? Layers of a "
+        "drawing take wildcards, and so do codes of cartographic objects in BDOT500: BUBZ*.",
+    ),
+]
+Standard: TypeAlias = Annotated[
+    str, of_check(metavar="NAME", help="How the slopes would be hatched.")
+]
+Scale: TypeAlias = Annotated[float, of_check(metavar="N", min=1.0, help="Scale of the map, 1 : N.")]
 
 # What the table holds
 
@@ -259,8 +379,94 @@ Smooth: TypeAlias = Annotated[
     ),
 ]
 
+# How strokes are made
+
+StandardName: TypeAlias = Annotated[
+    str,
+    of_strokes(
+        metavar="NAME|FILE",
+        help="One of [bold]midrib standards[/], the beginning of some (pl-2015, each object by "
+        "the one made for its kind), or a .toml file of your own.",
+    ),
+]
+MapScale: TypeAlias = Annotated[float, of_strokes(metavar="N", help="Of the map: 500 for 1:500.")]
+Symbol: TypeAlias = Annotated[
+    str | None,
+    of_strokes(
+        metavar="NAME",
+        help="line, wedge, triangle, filled-triangle, tapered, y, tadpole. This and what follows "
+        "is the standard's, unless you say otherwise.",
+    ),
+]
+SymbolWidth: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="MM", help="Width of wedges, triangles, forks, heads.")
+]
+StrokeWidth: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="MM", help="Width of the line of strokes.")
+]
+Factor: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="N", help="Gap between strokes over their length.")
+]
+Gap: TypeAlias = Annotated[
+    float | None, of_strokes("--spacing", metavar="MM", help="Or: a fixed gap.")
+]
+LeastGap: TypeAlias = Annotated[
+    float | None, of_strokes("--min-spacing", metavar="MM", help="Least gap.")
+]
+LargestGap: TypeAlias = Annotated[
+    float | None, of_strokes("--max-spacing", metavar="MM", help="Largest gap.")
+]
+Pattern: TypeAlias = Annotated[
+    str | None, of_strokes(metavar="LS", help="Long and short in turn: LS, LSS, LSSL, L.")
+]
+ShortRatio: TypeAlias = Annotated[
+    float | None, of_strokes(metavar="N", help="Length of a short stroke over that of a long one.")
+]
+LeastLength: TypeAlias = Annotated[
+    float | None, of_strokes("--min-length", metavar="MM", help="Shortest whole stroke.")
+]
+From: TypeAlias = Annotated[
+    StartSide,
+    of_strokes(
+        "--from", metavar="SIDE", help="Where the pattern starts: left, right, first, last."
+    ),
+]
+Offset: TypeAlias = Annotated[
+    float, of_strokes(metavar="N", help="Where the first stroke falls, in gaps from the start.")
+]
+First: TypeAlias = Annotated[
+    Letter | None, of_strokes(metavar="long|short", help="What the first stroke is.")
+]
+EndStrokes: TypeAlias = Annotated[
+    bool,
+    of_strokes("--end-strokes", metavar="", help="Strokes on the straight ends of slopes too."),
+]
+Stiffness: TypeAlias = Annotated[
+    float | None,
+    of_strokes(metavar="N", help="More turns slower at corners, less is nearer to normals: 1.2."),
+]
+RuleOption: TypeAlias = Annotated[
+    DrawingRule, of_strokes("--rule", metavar="NAME", help="matching; paper, for comparison.")
+]
+
 # Output
 
+DrawingOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the drawing; its ending chooses the format: .gpkg with a style for QGIS, "
+        ".dxf, .svg and .pdf to scale, .gml for KR_ObiektKarto of BDOT500, .geojson .shp …",
+    ),
+]
+PaperSize: TypeAlias = Annotated[
+    str | None,
+    of_output(
+        "--paper",
+        metavar="A4…A0",
+        help="Size of a .svg or .pdf sheet; as large as it needs to be unless you say otherwise.",
+    ),
+]
 Width: TypeAlias = Annotated[
     WidthPlace,
     of_output(
@@ -280,6 +486,21 @@ LineFigure: TypeAlias = Annotated[
 TableFigure: TypeAlias = Annotated[
     Path | None,
     of_output("--figure", metavar="FILE", help="Plot width against station too: .svg .png .pdf"),
+]
+FindingsOut: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--out",
+        "-o",
+        metavar="FILE",
+        help="Write the table too: .csv plain; .geojson .gpkg .parquet … with places as points.",
+    ),
+]
+FindingsFigure: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--figure", metavar="FILE", help="Draw slopes and places of findings too: .svg .png .pdf"
+    ),
 ]
 Overwrite: TypeAlias = Annotated[bool, of_output("--overwrite", metavar="", help="Replace files.")]
 Quiet: TypeAlias = Annotated[

@@ -23,9 +23,9 @@ from midrib.formats.writing import (
 )
 
 if TYPE_CHECKING:
-    from midrib.cli.guides import Guides
     from midrib.cli.job import Results
     from midrib.cli.report import Report
+    from midrib.formats.guides import Guides
     from midrib.formats.reading import Source
 
 __all__ = ["Places", "draw"]

@@ -1,8 +1,8 @@
 """What a command says on stderr: that kernels are compiled, how far it is, what came of it."""
 
 import time
-from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
 from rich.progress import (
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Report"]
 
+Work = TypeVar("Work")
 WARM_UP = box(0.0, 0.0, 3.0, 1.0)
 
 
@@ -34,6 +35,18 @@ class Rate(ProgressColumn):
         """Show the rate once there is one."""
         speed = task.finished_speed or task.speed
         return Text("" if speed is None else f"{speed:,.0f}/s")
+
+
+def warm_up() -> None:
+    """Collapse an area."""
+    from midrib.curves.collapse import collapse
+
+    collapse(WARM_UP)
+
+
+def size_of(batch: "Batch") -> int:
+    """Return the number of features in a batch."""
+    return len(batch.geometries)
 
 
 class Report:
@@ -47,21 +60,30 @@ class Report:
         """Print one line."""
         self.console.print(sentence, markup=False)
 
-    def start(self) -> None:
-        """Load the kernels, and tell where that takes long; time counts from now on."""
-        from midrib.curves.collapse import collapse
+    def start(self, work: Callable[[], Any] = warm_up) -> None:
+        """Load the kernels by some work, and tell where that takes long; time counts from now."""
+        self.announce()
+        work()
+        interrupts.start_work()
+        self.started = time.perf_counter()
+
+    def announce(self) -> None:
+        """Tell that kernels are compiled, if they are not there yet."""
         from midrib.kernels.jit import cache_folder
 
         if next(cache_folder().rglob("*.nbi"), None) is None:
             self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
-        collapse(WARM_UP)
-        interrupts.start_work()
-        self.started = time.perf_counter()
 
-    def track(self, batches: Iterable["Batch"], count: int | None) -> Iterator["Batch"]:
+    def track(
+        self,
+        batches: Iterable[Work],
+        count: int | None,
+        size: Callable[[Work], int] = size_of,  # type: ignore[assignment]
+        doing: str = "collapsing",
+    ) -> Iterator[Work]:
         """Show a progress bar while batches are worked on, if there is a terminal."""
         bar = Progress(
-            TextColumn("collapsing"),
+            TextColumn(doing),
             BarColumn(),
             MofNCompleteColumn(),
             Rate(),
@@ -74,7 +96,7 @@ class Report:
             task = bar.add_task("", total=count)
             for batch in batches:
                 yield batch
-                bar.advance(task, len(batch.geometries))
+                bar.advance(task, size(batch))
 
     @property
     def elapsed(self) -> float:

@@ -20,9 +20,9 @@ from midrib.formats.writing import Features, staged, write_layer
 from midrib.profiles import profiles_of
 
 if TYPE_CHECKING:
-    from midrib.cli.guides import Guides
     from midrib.cli.output import Places
     from midrib.cli.report import Report
+    from midrib.formats.guides import Guides
     from midrib.formats.reading import Batch, Source
     from midrib.profiles import PartProfile, Profile
 

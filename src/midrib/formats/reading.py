@@ -111,13 +111,13 @@ def layer_names(path: Path) -> dict[str, str | None]:
         raise ParameterError(msg) from None
 
 
-def column_names(path: Path) -> list[str]:
-    """Columns of a file's first layer; none if it cannot be read."""
+def column_names(path: Path, layer: str | int = 0) -> list[str]:
+    """Columns of a file's layer, the first unless named; none if it cannot be read."""
     try:
         if path.suffix.lower() in PARQUET_ENDINGS:
             return list(pq.read_schema(path).names)
         with without_m():
-            return [str(name) for name in pyogrio.read_info(path, layer=0)["fields"]]
+            return [str(name) for name in pyogrio.read_info(path, layer=layer)["fields"]]
     except UNREADABLE:
         return []
 

@@ -1,4 +1,4 @@
-"""Directional polylines of ``--main``: which of them lies along which area."""
+"""Directional polylines of ``--main`` or ``--top``: which of them lies along which area."""
 
 from collections import defaultdict
 from pathlib import Path
@@ -27,8 +27,8 @@ class Guides(Protocol):
         """Polyline or None of each feature of a batch, and why some cannot be read."""
 
 
-def guides_for(main: str | None, path: Path, source: "Source") -> Guides:
-    """Guides that ``--main`` speaks of: a layer, a layer and a common field, or a field.
+def guides_for(main: str | None, path: Path, source: "Source", option: str = "--main") -> Guides:
+    """Guides that an option speaks of: a layer, a layer and a common field, or a field.
 
     Raises
     ------
@@ -44,17 +44,17 @@ def guides_for(main: str | None, path: Path, source: "Source") -> Guides:
     if layer in layers:
         if identifier not in fields:
             msg = (
-                f"--main names the field {identifier!r}, expected one of layer {source.layer!r}: "
+                f"{option} names the field {identifier!r}, expected one of layer {source.layer!r}: "
                 f"{listed(fields)}"
             )
             raise ParameterError(msg)
-        return KeyedGuides(identifier, lines_by_key(path, layer, identifier))
+        return KeyedGuides(identifier, lines_by_key(path, layer, identifier, option))
     if main in fields:
         return FieldGuides(main)
     others = [name for name in layers if name != source.layer]
     msg = (
-        f"--main is {main!r}, expected a layer of IN ({listed(others) or 'there is no other'}) or "
-        f"a field of layer {source.layer!r} ({listed(fields)})"
+        f"{option} is {main!r}, expected a layer of IN ({listed(others) or 'there is no other'}) "
+        f"or a field of layer {source.layer!r} ({listed(fields)})"
     )
     raise ParameterError(msg)
 
@@ -156,13 +156,13 @@ def lines_of(path: Path, layer: str) -> list[LineString]:
     return [line for line in lines if line is not None]
 
 
-def lines_by_key(path: Path, layer: str, field: str) -> dict[object, LineString]:
+def lines_by_key(path: Path, layer: str, field: str, option: str) -> dict[object, LineString]:
     """Read the line of each key; pieces with the same key are joined where they meet."""
     pieces: dict[object, list[object]] = defaultdict(list)
     with open_layer(path, layer) as source:
         if field not in source.attributes.names:
             msg = (
-                f"--main names the field {field!r}, expected one of layer {layer!r}: "
+                f"{option} names the field {field!r}, expected one of layer {layer!r}: "
                 f"{listed(source.attributes.names)}"
             )
             raise ParameterError(msg)

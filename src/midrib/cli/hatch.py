@@ -1,0 +1,143 @@
+"""The command ``midrib hatch``."""
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from midrib.cli import options as cli
+from midrib.cli.options import DrawingRule, StartSide
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from shapely import MultiPolygon, Polygon
+
+    from midrib.cli.report import Report
+    from midrib.formats.drawing.content import Drawing
+
+__all__ = ["hatch"]
+
+MOST_LISTED = 10  # problems told on the terminal
+
+
+def hatch(
+    source: cli.SlopesIn,
+    out: cli.DrawingOut,
+    standard: cli.StandardName = "pl-2021",
+    scale: cli.MapScale = 500.0,
+    symbol: cli.Symbol = None,
+    symbol_width: cli.SymbolWidth = None,
+    stroke_width: cli.StrokeWidth = None,
+    factor: cli.Factor = None,
+    spacing: cli.Gap = None,
+    min_spacing: cli.LeastGap = None,
+    max_spacing: cli.LargestGap = None,
+    pattern: cli.Pattern = None,
+    short_ratio: cli.ShortRatio = None,
+    min_length: cli.LeastLength = None,
+    from_side: cli.From = StartSide.left,
+    offset: cli.Offset = 1.0,
+    first: cli.First = None,
+    end_strokes: cli.EndStrokes = False,
+    stiffness: cli.Stiffness = None,
+    rule: cli.RuleOption = DrawingRule.matching,
+    layer: cli.Layer = None,
+    top: cli.Top = None,
+    toe: cli.Toe = None,
+    start: cli.Start = None,
+    end: cli.End = None,
+    exclude: cli.Exclude = None,
+    history: cli.History = False,
+    paper: cli.PaperSize = None,
+    overwrite: cli.Overwrite = False,
+    quiet: cli.Quiet = False,
+) -> None:
+    """Hatch slopes at map scale, and draw walls, stairs and conveyors."""
+    from midrib.cli.report import Report
+    from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
+    from midrib.formats.drawing.write import check_places, write_drawing
+    from midrib.formats.slopes import read_slopes
+
+    values = given(
+        symbol=symbol,
+        symbol_width=symbol_width,
+        stroke_width=stroke_width,
+        factor=factor,
+        spacing=spacing,
+        min_spacing=min_spacing,
+        max_spacing=max_spacing,
+        pattern=pattern,
+        short_ratio=short_ratio,
+    )
+    options = given(
+        min_length=min_length, first=first and first.value, stiffness=stiffness, offset=offset
+    )
+    options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
+    sources = [source] if exclude is None else [source, exclude]
+    check_places(out, sources, overwrite=overwrite, paper=paper)
+    check_standard(standard, values)
+    slopes, problems = read_slopes(
+        source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
+    )
+    if exclude is not None:
+        options["exclude"] = zones_in(exclude)
+    report = Report(quiet=quiet)
+    report.start(lambda: try_out(standard, scale, values, **options))
+    drawing = draw_slopes(
+        slopes,
+        standard,
+        scale,
+        problems=problems,
+        values=values,
+        track=lambda slopes: report.track(slopes, len(slopes), lambda _: 1, "hatching"),
+        **options,
+    )
+    for note in write_drawing(out, drawing, paper=paper):
+        report.say(f"note: {note}")
+    sum_up(drawing, out, report)
+    if drawing.n_refused:
+        raise typer.Exit(1)
+
+
+def given(**values: Any) -> dict[str, Any]:
+    """Values that are given."""
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def zones_in(path: "Path") -> list["Polygon | MultiPolygon"]:
+    """Read the areas of a file, whatever else is in it."""
+    from shapely import MultiPolygon, Polygon
+
+    from midrib.formats.reading import choose_layer, open_layer
+
+    with open_layer(path, choose_layer(path, None)) as source:
+        features = [geometry for batch in source.batches() for geometry in batch.geometries]
+    return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
+
+
+def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
+    """Say what has come of a run."""
+    from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
+    from midrib.formats.units import unit_of
+
+    found = Counter(trouble.kind for trouble in drawing.problems)
+    strokes = sum(0 if drawn.is_long is None else len(drawn.is_long) for drawn in drawing.objects)
+    report.say(
+        f"{strokes:,} strokes of {len(drawing.objects):,} objects at 1:{drawing.scale:g}, "
+        f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
+    )
+    report.say(f"written to {out}")
+    if drawing.objects and unit_of(drawing.crs) is None:
+        report.say("note: IN does not say what its unit is, it is taken for the metre")
+    if not drawing.objects and not drawing.problems:
+        report.say("note: IN has no slopes; those that have ended come with --history")
+    listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
+    for trouble in listed[:MOST_LISTED]:
+        report.say(f"refused: {trouble.id}: {trouble.reason}")
+    if len(listed) > MOST_LISTED:
+        report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
+    names = {LEFT_OUT: "objects left out", STROKE: "places where a stroke is amiss"}
+    for kind, number in found.items():
+        if kind != REFUSED:
+            report.say(f"note: {number:,} {names.get(kind, f'doubts: {kind}')}")

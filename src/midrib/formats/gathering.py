@@ -1,0 +1,153 @@
+"""What a reader of slopes gathers: slopes, problems, and points of known height on their edges."""
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+import shapely
+from shapely import LineString, Polygon
+
+from midrib.errors import InvalidAreaError
+from midrib.hatching.edges import Doubt, Edges, edges_along, edges_between, mean_width
+from midrib.hatching.slope import Slope, SlopeError, SlopeProblem
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+__all__ = ["Gathered", "Top", "check_area", "is_height"]
+
+Top: TypeAlias = "tuple[Floats, Floats] | LineString"  # start and end, or all of it
+ON_EDGE = 0.01  # of the mean width: points this near are on an edge
+UNKNOWN = 0.0  # what registers write for a height that nobody has measured
+PLACE = re.compile(r"\[([-+.\deE]+) ([-+.\deE]+)")
+
+
+@dataclass
+class Gathered:
+    """Slopes of a file, in its order, and what is wrong with it."""
+
+    slopes: list[Slope] = field(default_factory=list)
+    problems: list[SlopeProblem] = field(default_factory=list)
+    heights: "list[tuple[float, float, float]]" = field(default_factory=list)  # x, y, height
+
+    @contextmanager
+    def refusing(self, identifier: str) -> Iterator[None]:
+        """Note what is no slope, and go on."""
+        try:
+            yield
+        except InvalidAreaError as error:
+            where = error.where if isinstance(error, SlopeError) else None
+            self.problems.append(SlopeProblem(identifier, "refused", str(error), where))
+
+    def add(self, slope: Slope, doubts: Sequence[Doubt] = ()) -> None:
+        """Keep a slope, and what is doubtful about its edges."""
+        self.slopes.append(slope)
+        self.problems += [SlopeProblem(slope.id, *doubt) for doubt in doubts]
+
+    def add_sides(
+        self,
+        identifier: str,
+        areas: Sequence[Polygon],
+        tops: Sequence[Top],
+        slope: Callable[[str, Polygon, Edges], Slope],
+    ) -> None:
+        """Keep one slope for each top of an object, on the part of the object's area that it is on.
+
+        ``slope`` makes it from its name, its area and its edges.
+        """
+        taken: list[int] = []
+        for side, top in enumerate(tops, start=1):
+            own = f"{identifier}/{side}" if len(tops) > 1 else identifier
+            k = int(np.argmin([off(area, top) for area in areas]))
+            taken.append(k)
+            with self.refusing(own):
+                edges = edges_of(check_area(areas[k]), top)
+                if k not in taken[:-1]:
+                    self.add(slope(own, areas[k], edges), edges.doubts)
+                elif not edges.top.is_closed:  # a hole is the top of all sides at once
+                    msg = "two tops are on the same part of its area, expected a part for each side"
+                    raise SlopeError(msg, shapely.get_coordinates(edges.top)[0])
+        for k, area in enumerate(areas):
+            if k not in taken:
+                with self.refusing(identifier):
+                    msg = f"part {k + 1} of {len(areas)} of its area has no top"
+                    raise SlopeError(msg, shapely.get_coordinates(area)[0])
+
+    def result(self) -> tuple[list[Slope], list[SlopeProblem]]:
+        """Slopes with the heights that are known on their edges, and problems."""
+        rows = np.array(self.heights, dtype=np.float64).reshape(-1, 3)
+        points = shapely.points(rows[:, :2])
+        tree = shapely.STRtree(points)
+        return [with_heights(slope, rows, points, tree) for slope in self.slopes], self.problems
+
+
+def with_heights(slope: Slope, rows: "Floats", points: "Floats", tree: shapely.STRtree) -> Slope:
+    """Slope with those of the points that are on an edge, after what it knows of itself."""
+    near = ON_EDGE * mean_width(slope.area)
+    found = tree.query(slope.area, predicate="dwithin", distance=near)
+    known: dict[str, Floats | None] = {}
+    for name, edge in (("top_heights", slope.top), ("toe_heights", slope.toe)):
+        own = getattr(slope, name)
+        on_edge = rows[found[shapely.distance(points[found], edge) <= near]]
+        all_known = [heights_of(edge), on_edge, *([] if own is None else [own])]
+        heights = np.concatenate(all_known)
+        known[name] = heights if len(heights) else None
+    return replace(slope, **known)  # type: ignore[arg-type]
+
+
+def heights_of(edge: LineString) -> "Floats":
+    """Vertices of an edge whose height is known."""
+    if not edge.has_z:
+        return np.empty((0, 3))
+    rows: Floats = shapely.get_coordinates(edge, include_z=True)
+    return rows[[is_height(z) for z in rows[:, 2]]]
+
+
+def is_height(value: float) -> bool:
+    """Whether a number is a measured height."""
+    return bool(np.isfinite(value)) and value != UNKNOWN
+
+
+def off(area: Polygon, top: Top) -> float:
+    """How far a top is from the boundary of an area, in all."""
+    corners = shapely.get_coordinates(top) if isinstance(top, LineString) else np.array(top)
+    return float(shapely.distance(shapely.points(corners[:, :2]), area.boundary).sum())
+
+
+def edges_of(area: Polygon, top: Top) -> Edges:
+    """Divide the boundary of an area by its top, however that is told.
+
+    Raises
+    ------
+    SlopeError
+        If the top is not on the boundary.
+    """
+    return edges_along(area, top) if isinstance(top, LineString) else edges_between(area, *top)
+
+
+def check_area(area: object) -> Polygon:
+    """Return an area that can be divided.
+
+    Raises
+    ------
+    SlopeError
+        If it is no valid Polygon.
+    """
+    if not isinstance(area, Polygon) or area.is_empty:
+        kind = getattr(area, "geom_type", "nothing")
+        empty = "an empty " * bool(getattr(area, "is_empty", False))
+        msg = f"its geometry is {empty}{kind}, expected a Polygon"
+        raise SlopeError(msg)
+    if not np.isfinite(shapely.get_coordinates(area)).all():
+        msg = "its area has a coordinate that is not finite"
+        raise SlopeError(msg)
+    if not area.is_valid:
+        reason = shapely.is_valid_reason(area)
+        place = PLACE.search(reason)
+        where = None if place is None else np.array([float(place[1]), float(place[2])])
+        msg = f"its area is not valid: {reason.partition('[')[0]}"
+        raise SlopeError(msg, where)
+    return area

@@ -1,0 +1,238 @@
+"""Slopes of any vector layer: areas, with what other layers or fields tell of their tops."""
+
+from collections import defaultdict
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+import shapely
+from shapely import LineString, Polygon
+
+from midrib.errors import ParameterError
+from midrib.formats.bdot500 import kind_of
+from midrib.formats.gathering import Gathered, check_area
+from midrib.formats.guides import guides_for
+from midrib.formats.pairs import add_pairs, joined
+from midrib.formats.reading import choose_layer, column_names, layer_names, listed, open_layer
+from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from midrib.formats.gathering import Top
+    from midrib.formats.reading import Batch, Source
+    from midrib.hatching.edges import Edges
+    from midrib.types import Floats
+
+__all__ = ["Hints", "read_layer"]
+
+IDENTIFIERS = ("gml_id", "id", "ident", "lokalnyId", "fid", "ogc_fid")
+# Tops of each feature of a batch, or why they cannot be read; points of each.
+Finder: TypeAlias = "Callable[[Batch], list[list[Top] | str]]"
+Points: TypeAlias = "Callable[[Batch], list[list[Floats]]]"
+
+
+class Hints(NamedTuple):
+    """Where the tops of a layer's areas are told.
+
+    Attributes
+    ----------
+    layer : str or None
+        The layer of areas; the one that fits best unless it is named.
+    top : str or None
+        Lines along the tops: ``LAYER``, ``LAYER:ID`` or ``FIELD``; see ``guides_for``.
+    toe : str or None
+        Layer of lines along the toes: ``top`` is a layer of lines too then, and areas are what is
+        between the two.
+    start, end : str or None
+        Where the tops start and end: two fields ``X,Y``, or a layer of points ``LAYER:ID`` that has
+        the field ID in common with the areas.
+    """
+
+    layer: str | None = None
+    top: str | None = None
+    toe: str | None = None
+    start: str | None = None
+    end: str | None = None
+
+    @property
+    def names(self) -> set[str]:
+        """Every name of a field or a layer in them."""
+        told = ",".join(text for text in self if text is not None)
+        return {*told.replace(":", ",").split(",")}
+
+
+# What known data sets call them; a layer of areas without a name is one that has the fields.
+KNOWN = (
+    Hints(start="gora_start_x,gora_start_y", end="gora_koniec_x,gora_koniec_y"),
+    Hints("OT_Skarpa", start="OT_poczatekGorySkarpy:gml_id", end="OT_koniecGorySkarpy:gml_id"),
+    Hints("talud", top="kruinlijn:gml_id"),
+)
+KINDS_OF_LAYERS: dict[str, SlopeKind] = {"talud": "slope-unreinforced"}
+
+
+def read_layer(path: Path, hints: Hints) -> tuple[list[Slope], list[SlopeProblem]]:
+    """Read the slopes of a layer, and what is wrong with some.
+
+    Raises
+    ------
+    ParameterError
+        If nothing tells where the tops are.
+    """
+    found = Gathered()
+    if hints.toe is not None:
+        add_lines(found, path, hints)
+        return found.result()
+    hints = with_known(path, hints)
+    with open_layer(path, choose_layer(path, hints.layer)) as source:
+        tops = tops_for(hints, path, source)
+        for batch in source.batches():
+            add_batch(found, source, batch, tops(batch))
+    return found.result()
+
+
+def add_lines(found: Gathered, path: Path, hints: Hints) -> None:
+    """Keep the slopes between lines of two layers.
+
+    Raises
+    ------
+    ParameterError
+        If there are no such layers.
+    """
+    lines: dict[str, list[LineString]] = {}
+    layers, crs = layer_names(path), None
+    for name, layer in (("top", hints.top), ("toe", hints.toe)):
+        if layer is None or layer not in layers:
+            msg = f"{name} is {layer!r}, expected a layer of IN {str(path)!r}: {listed(layers)}"
+            raise ParameterError(msg)
+        with open_layer(path, layer) as source:
+            crs = source.crs
+            parts = shapely.get_parts([g for b in source.batches() for g in b.geometries if g])
+        lines[name] = joined([part for part in parts if isinstance(part, LineString)])
+    add_pairs(found, lines["top"], lines["toe"], path.stem, crs)
+
+
+def with_known(path: Path, hints: Hints) -> Hints:
+    """Add what the names of known data sets tell.
+
+    Raises
+    ------
+    ParameterError
+        If hints are missing and the names tell nothing, or hints exclude each other.
+    """
+    if (hints.start is None) != (hints.end is None):
+        msg = f"start is {hints.start!r} and end is {hints.end!r}, expected both or neither"
+        raise ParameterError(msg)
+    if hints.top is not None and hints.start is not None:
+        msg = "top excludes start and end, give one or the other"
+        raise ParameterError(msg)
+    if hints.top is not None or hints.start is not None:
+        return hints
+    layers = layer_names(path)
+    for known in KNOWN:
+        for layer in layers if hints.layer is None else [hints.layer]:
+            names = {*layers, *column_names(path, layer)}
+            if known.layer in {None, layer} and known.names <= names:
+                return known._replace(layer=layer)
+    msg = f"IN {str(path)!r} does not tell the tops of its areas, expected top, or start and end"
+    raise ParameterError(msg)
+
+
+def add_batch(
+    found: Gathered, source: "Source", batch: "Batch", tops: "list[list[Top] | str]"
+) -> None:
+    """Keep the slopes of some features, each with its tops or with what is wrong with them."""
+    rows = batch.attributes.to_pylist() or [{}] * len(batch.geometries)
+    key = next((name for name in IDENTIFIERS if name in source.attributes.names), None)
+    for row, (said, geometry) in enumerate(zip(rows, batch.geometries, strict=True)):
+        told = batch.unreadable.get(row, tops[row])
+        identifier = str(batch.first + row if key is None else said[key])
+        with found.refusing(identifier):
+            if not told or isinstance(told, str):
+                msg = str(told or "it has no top")
+                raise SlopeError(msg, place_of(geometry))
+            parts = [*shapely.get_parts(geometry)] if geometry else [check_area(geometry)]
+            found.add_sides(identifier, parts, told, maker(source, said))
+
+
+def place_of(geometry: object) -> "Floats | None":
+    """First point of a geometry, None if it has none."""
+    points = shapely.get_coordinates(geometry)
+    return points[0] if len(points) else None
+
+
+def maker(source: "Source", said: dict[str, object]) -> "Callable[[str, Polygon, Edges], Slope]":
+    """Make slopes of a feature, by their name, area and edges."""
+    kind = kind_of("OT_Skarpa", said)
+    if kind == "other":
+        kind = KINDS_OF_LAYERS.get(source.layer, kind)
+
+    def slope(identifier: str, area: Polygon, edges: "Edges") -> Slope:
+        origin = f"layer {source.layer}"
+        return Slope(identifier, kind, area, edges.top, edges.toe, origin, said, crs=source.crs)
+
+    return slope
+
+
+def tops_for(hints: Hints, path: Path, source: "Source") -> Finder:
+    """Find the tops of the features of a batch, by whatever hint there is."""
+    if hints.top is not None:
+        guides = guides_for(hints.top, path, source, "top")
+
+        def along(batch: "Batch") -> "list[list[Top] | str]":
+            lines, unreadable = guides.of(batch)
+            return [unreadable.get(k) or ([] if x is None else [x]) for k, x in enumerate(lines)]
+
+        return along
+    starts = points_for(str(hints.start), "start", path, source)
+    ends = points_for(str(hints.end), "end", path, source)
+
+    def between(batch: "Batch") -> "list[list[Top] | str]":
+        return [
+            list(zip(first, last, strict=True))
+            if len(first) == len(last)
+            else f"its top has {len(first)} starts and {len(last)} ends, expected as many"
+            for first, last in zip(starts(batch), ends(batch), strict=True)
+        ]
+
+    return between
+
+
+def points_for(text: str, option: str, path: Path, source: "Source") -> Points:
+    """Find the points of the features of a batch that an option speaks of.
+
+    Raises
+    ------
+    ParameterError
+        If there are no such fields and no such layer.
+    """
+    fields, layers = source.attributes.names, layer_names(path)
+    columns = [name.strip() for name in text.split(",")]
+    if len(columns) == 2 and {*columns} <= {*fields}:
+        return lambda batch: [
+            [np.array(pair)] if None not in pair else []
+            for pair in zip(*(batch.attributes[name].to_pylist() for name in columns), strict=True)
+        ]
+    layer, _, key = text.rpartition(":")
+    if layer in layers and key in fields:
+        points = points_by_key(path, layer, key)
+        return lambda batch: [points[value] for value in batch.attributes[key].to_pylist()]
+    msg = (
+        f"{option} is {text!r}, expected two fields X,Y of layer {source.layer!r} "
+        f"({listed(fields)}) or a layer of points and a common field, LAYER:ID"
+    )
+    raise ParameterError(msg)
+
+
+def points_by_key(path: Path, layer: str, key: str) -> "dict[object, list[Floats]]":
+    """Read the points of a layer, by a field that areas have too."""
+    found: dict[object, list[Floats]] = defaultdict(list)
+    with open_layer(path, layer) as source:
+        if key not in source.attributes.names:
+            msg = f"layer {layer!r} has no field {key!r}, expected one of "
+            raise ParameterError(msg + listed(source.attributes.names))
+        for batch in source.batches():
+            keys = batch.attributes[key].to_pylist()
+            for value, geometry in zip(keys, batch.geometries, strict=True):
+                found[value] += [*shapely.get_coordinates(geometry)]
+    return found

@@ -1,0 +1,96 @@
+"""Slopes of any register: finds out what a file is and has it read."""
+
+from pathlib import Path
+
+from midrib.errors import ParameterError
+from midrib.formats import bdot500, bgt, gml
+from midrib.formats.cad import read_cad
+from midrib.formats.layers import Hints, read_layer
+from midrib.hatching.slope import Slope, SlopeProblem
+
+__all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "read_slopes"]
+
+XML, DRAWING = (".gml", ".xml"), ".dxf"
+
+
+def read_slopes(
+    path: str | Path,
+    *,
+    layer: str | None = None,
+    top: str | None = None,
+    toe: str | None = None,
+    start: str | None = None,
+    end: str | None = None,
+    history: bool = False,
+) -> tuple[list[Slope], list[SlopeProblem]]:
+    r"""Read the slopes of a register: areas with their tops and toes.
+
+    Finds out what the file is: BDOT500 of the models of 2015 and 2021 (GML), BGT (CityGML), a
+    drawing (DXF), or any vector layer with areas and something that tells where their tops are.
+
+    Parameters
+    ----------
+    path : str or Path
+    layer : str, optional
+        Layer of areas; needed if several could be meant.
+    top : str, optional
+        Lines along the tops: ``LAYER``, matched by place, ``LAYER:ID``, matched by a field that
+        both layers have, or ``FIELD`` with WKT. Of a drawing: its layer of tops.
+    toe : str, optional
+        Lines along the toes, where there are no areas: a layer, as ``top`` is then.
+    start, end : str, optional
+        Where the tops start and end: two fields ``X,Y`` or a layer of points ``LAYER:ID``.
+    history : bool, default False
+        Whether to read objects that the register says have ended.
+
+    Returns
+    -------
+    slopes : list of Slope
+        In the order of the file, one for each side that has a top.
+    problems : list of SlopeProblem
+        What could not be read, and what is doubtful about some of the slopes.
+
+    Raises
+    ------
+    ParameterError
+        If the file cannot be read, or nothing tells where the tops are.
+    MissingDependencyError
+        If it is a drawing and ezdxf is not installed.
+
+    Notes
+    -----
+    Start and end need not be vertices. Off the boundary, a vertex within a tenth of the mean width
+    is taken, else the nearest place if that is as near. Either is listed as a problem. A height of
+    0 is unknown. Points of known height are on an edge if they are within a 100th of the mean width
+    of it. O(n) memory in the vertices of the slopes; GML is read one feature at a time.
+
+    References
+    ----------
+    docs/registers.md: what becomes a slope in each model, with sources.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     path = Path(folder) / "slopes.csv"
+    ...     row = '"POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0))",a,"LINESTRING (0 2, 9 2)"'
+    ...     _ = path.write_text(f"WKT,id,crest\n{row}")
+    ...     (slope,), problems = read_slopes(path, top="crest")
+    >>> slope.top.wkt, slope.toe.wkt, problems
+    ('LINESTRING (0 2, 9 2)', 'LINESTRING (0 2, 0 0, 9 0, 9 2)', [])
+    """
+    path = Path(path)
+    if not path.exists():
+        msg = f"IN {str(path)!r} does not exist"
+        raise ParameterError(msg)
+    if path.suffix.lower() == DRAWING:
+        return read_cad(path, top, toe)
+    hints = Hints(layer, top, toe, start, end)
+    if path.suffix.lower() in XML and hints == Hints():
+        spaces = " ".join(gml.namespaces(path))
+        if any(name in spaces for name in bdot500.DATABASES):
+            return bdot500.read_bdot500(path, history=history)
+        if bgt.MODEL in spaces:
+            return bgt.read_bgt(path, history=history)
+    return read_layer(path, hints)

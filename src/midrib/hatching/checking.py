@@ -1,0 +1,217 @@
+"""Checks of slopes before they are hatched, and of strokes that somebody has drawn."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import shapely
+from shapely import Point
+
+from midrib import interrupts
+from midrib.errors import InvalidAreaError
+from midrib.hatching.slope import Slope, SlopeProblem
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from midrib.types import Floats
+
+__all__ = ["CHECKS", "Finding", "check_slopes", "falls"]
+
+CHECKS = {
+    "refused": "no slope, for want of a top, an area or good coordinates",
+    "swapped": "the top is lower than the toe",
+    "off-ring": "an edge, or its start or end, is off the boundary",
+    "orientation": "it is doubtful which edge is the top",
+    "unmatched": "no strokes lead from the top to the toe in some place",
+    "crossing": "strokes that are drawn cross or lie on each other",
+}
+ENGINE = "midrib.hatching.hatch"
+MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
+ON_BOUNDARY = 1e-9  # of the extent: what a file loses of a place
+MEET_IN_ENDS = "F********"  # DE-9IM: two strokes have no inner point in common
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that a check has found.
+
+    Attributes
+    ----------
+    id : str
+        Name of the slope, empty for strokes that are on none.
+    check : str
+        One of ``CHECKS``.
+    reason : str
+    where : Point or None
+        The place, if there is one.
+    """
+
+    id: str
+    check: str
+    reason: str
+    where: Point | None
+
+
+def check_slopes(
+    slopes: Sequence[Slope],
+    problems: Iterable[SlopeProblem] = (),
+    *,
+    strokes: Any = (),
+    standard: Any = "pl-2021-slope-unreinforced",
+    scale: float = 500.0,
+    metres_per_unit: float = 1.0,
+) -> list[Finding]:
+    """Look for what would spoil the hatching of slopes.
+
+    Parameters
+    ----------
+    slopes : sequence of Slope
+    problems : iterable of SlopeProblem, optional
+        What ``midrib.read_slopes`` has found; it is listed with the rest.
+    strokes : array_like of LineString, optional
+        Strokes that are drawn already: those that cross, or lie on each other, are listed, each
+        pair once. That they meet in an end is no fault.
+    standard : str or Standard, default "pl-2021-slope-unreinforced"
+    scale : float, default 500
+        How the slopes would be hatched, to see whether they can be.
+    metres_per_unit : float, default 1
+        Length of a coordinate unit.
+
+    Returns
+    -------
+    list of Finding
+        In the order of ``CHECKS``, then of the slopes.
+
+    Notes
+    -----
+    Heights: the top is interpolated between its points of known height, along itself, and compared
+    with the toe's points beside it; a slope is swapped if the median difference is negative.
+    Orientation: edges of lengths more unequal than 4 to 1 are doubtful, closed ones are not.
+    O(n log n) for n strokes that few others meet.
+
+    Examples
+    --------
+    >>> top, toe = LineString([(0, 2), (9, 2)]), LineString([(0, 0), (9, 0)])
+    >>> heights = {"top_heights": np.array([[0, 2, 168]]), "toe_heights": np.array([[5, 0, 170]])}
+    >>> slope = midrib.Slope("a", "other", box(0, 0, 9, 2), top, toe, "", **heights)
+    >>> [(finding.check, finding.where.wkt) for finding in midrib.check_slopes([slope])]
+    [('swapped', 'POINT (5 0)')]
+    """
+    found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
+    hatch = engine()
+    for slope in slopes:
+        interrupts.check()
+        off = [*boundary(slope)]
+        found += [*heights(slope), *off, *lengths(slope)]
+        if hatch is not None and not off:
+            found += matching(slope, hatch, standard, scale, metres_per_unit)
+    found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
+    order = {check: k for k, check in enumerate(CHECKS)}
+    return sorted(found, key=lambda finding: order[finding.check])
+
+
+def falls(slope: Slope) -> "Floats":
+    """How much lower each point of the toe is than the top beside it.
+
+    Returns
+    -------
+    ndarray of float64, shape (n, 3)
+        x and y of the points of the toe whose height is known, and the fall there; none where no
+        height of either edge is known. Points that both edges share tell nothing.
+    """
+    if slope.top_heights is None or slope.toe_heights is None:
+        return np.empty((0, 3))
+    top, toe = slope.top_heights, slope.toe_heights
+    on_toe = shapely.points(toe[:, :2])
+    is_shared = shapely.distance(on_toe, slope.top) <= ON_BOUNDARY * extent(slope)
+    on_toe, toe = on_toe[~is_shared], toe[~is_shared]
+    station = slope.top.line_locate_point(shapely.points(top[:, :2]))
+    order = np.argsort(station)
+    period = slope.top.length if slope.top.is_closed else None
+    beside = slope.top.line_locate_point(on_toe)
+    above = np.interp(beside, station[order], top[order, 2], period=period)
+    return np.column_stack([toe[:, :2], above - toe[:, 2]])
+
+
+def heights(slope: Slope) -> Iterator[Finding]:
+    """Find a top that is lower than its toe."""
+    fall = falls(slope)
+    if len(fall) and np.median(fall[:, 2]) < 0.0:
+        worst = fall[np.argmin(fall[:, 2])]
+        reason = (
+            f"the top is up to {-worst[2]:.3g} lower than the toe, by {len(fall)} known heights: "
+            "the two may be swapped"
+        )
+        yield Finding(slope.id, "swapped", reason, Point(worst[:2]))
+
+
+def boundary(slope: Slope) -> Iterator[Finding]:
+    """Find edges that are off the boundary of the area, or do not divide it."""
+    near = ON_BOUNDARY * extent(slope)
+    for name, edge in (("top", slope.top), ("toe", slope.toe)):
+        corners = shapely.get_coordinates(edge)
+        places = np.concatenate([corners, (corners[1:] + corners[:-1]) / 2.0])
+        off = shapely.distance(shapely.points(places), slope.area.boundary)
+        worst = int(np.argmax(off))
+        if off[worst] > near:
+            reason = f"the {name} is {off[worst]:.3g} off the boundary"
+            yield Finding(slope.id, "off-ring", reason, Point(places[worst]))
+            return
+    if not slope.top.is_closed:
+        try:
+            slope.strip()
+        except InvalidAreaError as error:
+            yield Finding(slope.id, "off-ring", str(error), Point(slope.top.coords[0][:2]))
+
+
+def lengths(slope: Slope) -> Iterator[Finding]:
+    """Find edges so unequal that strokes would run along the slope, not down it."""
+    top, toe = slope.top.length, slope.toe.length
+    if not slope.top.is_closed and max(top, toe) > MOST_UNEQUAL * min(top, toe):
+        reason = f"the top is {top:.3g} long and the toe {toe:.3g}, expected {MOST_UNEQUAL:g} to 1"
+        middle = slope.top.interpolate(0.5, normalized=True)
+        yield Finding(slope.id, "orientation", f"{reason} at most", Point(middle.x, middle.y))
+
+
+def matching(
+    slope: Slope, hatch: Any, standard: Any, scale: float, metres_per_unit: float
+) -> Iterator[Finding]:
+    """Find places where a slope cannot be hatched."""
+    try:
+        done = hatch(slope.strip(), standard, scale, metres_per_unit=metres_per_unit)
+    except InvalidAreaError as error:
+        middle = slope.top.interpolate(0.5, normalized=True)
+        yield Finding(slope.id, "unmatched", str(error), Point(middle.x, middle.y))
+        return
+    for problem in done.problems:
+        yield Finding(slope.id, "unmatched", problem.reason, problem.where)
+
+
+def engine() -> Any:
+    """Return what hatches a strip, None where it is not there."""
+    if find_spec(ENGINE) is None:
+        return None
+    return import_module(ENGINE).hatch
+
+
+def crossings(strokes: "NDArray[np.object_]", slopes: Sequence[Slope]) -> Iterator[Finding]:
+    """Find pairs of strokes that cross or lie on each other, and the slope each is on."""
+    areas = shapely.STRtree([slope.area for slope in slopes])
+    found = shapely.STRtree(strokes).query(strokes, predicate="intersects")
+    for one, other in found.T[found[0] < found[1]]:
+        if shapely.relate_pattern(strokes[one], strokes[other], MEET_IN_ENDS):
+            continue
+        place = shapely.intersection(strokes[one], strokes[other]).representative_point()
+        near = areas.query(place, predicate="intersects")
+        name = slopes[near[0]].id if len(near) else ""
+        yield Finding(name, "crossing", f"strokes {one + 1} and {other + 1} cross", place)
+
+
+def extent(slope: Slope) -> float:
+    """Longer side of the bounds of a slope's area."""
+    x_low, y_low, x_high, y_high = slope.area.bounds
+    return float(max(x_high - x_low, y_high - y_low))

@@ -1,0 +1,164 @@
+"""``midrib hatch``: registers in, drawings out, exit codes, what is said."""
+
+from pathlib import Path
+
+import pyarrow as pa
+import pyogrio
+import pytest
+import shapely
+
+from midrib.formats.reading import layer_names
+from midrib.formats.writing import Features, write_layer
+from tests.cli.commands import Runner
+from tests.formats.layers import RD_NEW, write
+
+AREAS = [
+    "POLYGON ((0 0, 60 0, 60 8, 0 8, 0 0))",
+    "POLYGON ((0 20, 40 20, 55 35, 45 45, 20 32, 0 30, 0 20))",
+]
+TOPS = ["LINESTRING (60 8, 0 8)", "LINESTRING (0 20, 40 20, 55 35)"]
+BOW_TIE = "POLYGON ((0 60, 9 69, 9 60, 0 69, 0 60))"
+OUTS = ("gpkg", "parquet", "geojson", "dxf", "svg", "pdf")
+
+
+def register(folder: Path, areas: list[str], tops: list[str]) -> Path:
+    """Layer of slopes with their tops as a field."""
+    path = folder / "in.gpkg"
+    table = pa.table({"name": [f"s{i}" for i in range(len(areas))], "crest": tops})
+    write_layer(path, Features("slopes", table, shapely.from_wkt(areas), "geom", "Polygon", RD_NEW))
+    return path
+
+
+@pytest.fixture
+def slopes(tmp_path: Path) -> Path:
+    """Two slopes."""
+    return register(tmp_path, AREAS, TOPS)
+
+
+@pytest.mark.parametrize("ending", OUTS)
+def test_every_format_is_written_whole(
+    ending: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--quiet")
+    assert (outcome.code, outcome.out, outcome.err) == (0, "", "")
+    assert out.stat().st_size > 1000
+    assert not list(tmp_path.glob(".midrib-*"))
+    again = midrib("hatch", slopes, out, "--top", "crest", "--quiet")
+    assert again.code == 2
+    assert "exists, give --overwrite" in again.err
+    assert midrib("hatch", slopes, out, "--top", "crest", "--quiet", "--overwrite").code == 0
+
+
+def test_layers_and_summary(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / "out.gpkg"
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--scale", "1000")
+    assert outcome.code == 0
+    assert set(layer_names(out)) >= {"strokes", "outlines", "layer_styles"}
+    found = pyogrio.read_dataframe(out, layer="strokes")
+    assert f"{len(found)} strokes of 2 objects at 1:1000, 0 refused" in outcome.err
+    assert f"written to {out}" in outcome.err.replace("\n", "")
+    assert set(found["standard"]) == {"pl-2021-slope-unreinforced"}
+
+
+def test_options_reach_the_strokes(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / "out.gpkg"
+    options = ["--spacing", 4, "--pattern", "LSS", "--short-ratio", 0.25, "--first", "short"]
+    options += ["--symbol", "wedge", "--symbol-width", 0.8, "--standard", "pl-2015"]
+    assert midrib("hatch", slopes, out, "--top", "crest", *options).code == 0
+    found = pyogrio.read_dataframe(out, layer="symbols")
+    first = found[found["area"] == found["area"].iloc[0]]
+    assert len(first) == pytest.approx(60 / 2.0, abs=1)
+    assert first["is_long"].tolist()[:4] in (
+        [False, True, False, False],
+        [False, False, True, False],
+    )
+
+
+def test_no_stroke_enters_an_excluded_area(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    house = shapely.box(20, 2, 30, 6)
+    zones = tmp_path / "houses.gpkg"
+    write(zones, [house.wkt], kind="Polygon")
+    outs = [tmp_path / "all.gpkg", tmp_path / "some.gpkg"]
+    assert midrib("hatch", slopes, outs[0], "--top", "crest").code == 0
+    assert midrib("hatch", slopes, outs[1], "--top", "crest", "--exclude", zones).code == 0
+    both = [pyogrio.read_dataframe(out, layer="strokes").geometry for out in outs]
+    crossing = [strokes.intersection(house.buffer(-1e-9)).length.gt(0).sum() for strokes in both]
+    assert crossing[0] >= 2
+    assert crossing[1] == 0
+    assert len(both[1]) < len(both[0])
+
+
+def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midrib: Runner) -> None:
+    source = register(tmp_path, [*AREAS, BOW_TIE], [*TOPS, "LINESTRING (0 60, 9 69)"])
+    out = tmp_path / "out.gpkg"
+    outcome = midrib("hatch", source, out, "--top", "crest")
+    assert outcome.code == 1
+    assert "1 refused" in outcome.err
+    assert "refused: " in outcome.err
+    problems = pyogrio.read_dataframe(out, layer="problems")
+    assert problems["problem"].tolist() == ["refused"]
+    assert problems["reason"].str.len().min() > 10
+    assert len(pyogrio.read_dataframe(out, layer="strokes")) > 20
+
+
+def test_a_standard_of_ones_own_is_given_by_its_file(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    own = tmp_path / "house.toml"
+    text = 'title = "House"\nsource = "us"\nconfidence = "read"\nbase = "pl-2015-dyke"\n'
+    own.write_text(
+        text + 'kinds = ["other", "slope-unreinforced"]\nspacing = 6.0\n', encoding="utf-8"
+    )
+    out = tmp_path / "out.gpkg"
+    assert (
+        midrib("hatch", slopes, out, "--top", "crest", "--standard", own, "--rule", "paper").code
+        == 0
+    )
+    found = pyogrio.read_dataframe(out, layer="strokes")
+    assert set(found["standard"]) == {"house"}
+    own.write_text(text + "spacing = -1\n", encoding="utf-8")
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--standard", own, "--overwrite")
+    assert outcome.code == 2
+    assert "house.toml': key 'spacing' is -1, expected a length above 0" in outcome.err
+
+
+def test_objects_of_other_kinds_are_left_out_with_a_note(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    outcome = midrib(
+        "hatch", slopes, tmp_path / "out.svg", "--top", "crest", "--standard", "pl-2021-wall"
+    )
+    assert outcome.code == 0
+    assert "note: 2 objects left out" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--standard", "pl-2035"], "standard is 'pl-2035', expected one of arcgis-like"),
+        (["--scale", "-5"], "scale is -5.0, expected a number above 0"),
+        (["--short-ratio", "2"], "key 'short_ratio' is 2.0, expected a number from 0.05"),
+        (["--factor", "1", "--spacing", "2"], "has both keys 'factor' and 'spacing'"),
+        (["--offset", "0"], "offset is 0.0, expected a number above 0"),
+        (["--paper", "A3"], "paper is 'A3', expected A4, A3, A2, A1, A0, with OUT .svg or .pdf"),
+        (["--symbol", "zigzag"], "key 'symbol' is 'zigzag', expected 'line', 'wedge'"),
+    ],
+)
+def test_wrong_usage_is_said_in_one_sentence(
+    options: list[str], sentence: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    outcome = midrib("hatch", slopes, tmp_path / "out.gpkg", "--top", "crest", *options)
+    assert outcome.code == 2
+    assert sentence in outcome.err
+    assert outcome.err.count("\n") == 1
+    assert not (tmp_path / "out.gpkg").exists()
+
+
+def test_standards_are_listed(midrib: Runner) -> None:
+    outcome = midrib("standards")
+    assert outcome.code == 0
+    first, *rows = outcome.out.splitlines()
+    assert first.split() == ["name", "symbol", "confidence", "for", "source"]
+    assert len(rows) == 16
+    assert rows[3].startswith("iof-104")

@@ -1,0 +1,154 @@
+"""Slopes of drawings: which toe goes with which top."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from shapely import LineString, Polygon
+
+from midrib.errors import MissingDependencyError, ParameterError
+from midrib.formats.gathering import Gathered
+from midrib.formats.pairs import add_pairs, joined
+from midrib.formats.slopes import read_slopes
+
+ezdxf = pytest.importorskip("ezdxf")
+FOLDER = Path(__file__).parents[3] / "shared" / "data"
+
+
+def pairs(tops: list[LineString], toes: list[LineString]) -> Gathered:
+    """Slopes between some lines."""
+    found = Gathered()
+    add_pairs(found, tops, toes, "x")
+    return found
+
+
+def level(y: float, x: float = 0.0, turned: bool = False) -> LineString:
+    """A level line, nine long."""
+    ends = [(x, y), (x + 9.0, y)]
+    return LineString(ends[::-1] if turned else ends)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_each_top_goes_with_its_own_toe(turned: bool) -> None:
+    found = pairs([level(0), level(10)], [level(12, turned=turned), level(-2)])
+    assert not found.problems
+    assert [shapely.normalize(slope.area) for slope in found.slopes] == [
+        shapely.normalize(shapely.box(0, -2, 9, 0)),
+        shapely.normalize(shapely.box(0, 10, 9, 12)),
+    ]
+    for slope in found.slopes:
+        assert slope.toe.coords[0][0] == slope.top.coords[0][0]
+        slope.strip()
+
+
+def test_the_crest_of_a_dyke_has_two_toes_and_a_ditch_two_tops() -> None:
+    dyke = pairs([level(0)], [level(2), level(-3)])
+    assert sorted(slope.area.area for slope in dyke.slopes) == [18.0, 27.0]
+    ditch = pairs([level(2), level(-3)], [level(0)])
+    assert sorted(slope.area.area for slope in ditch.slopes) == [18.0, 27.0]
+    assert {slope.id for slope in ditch.slopes} == {"x/1", "x/2"}
+
+
+def test_closed_lines_go_together_and_bound_a_ring() -> None:
+    hole, shell = (LineString(shapely.box(-r, -r, r, r).exterior.coords) for r in (1, 3))
+    found = pairs([hole, level(20)], [level(22), shell])
+    mound = found.slopes[0]
+    assert mound.area.area == 32.0
+    assert mound.top.is_closed
+    (pit,) = pairs([shell], [hole]).slopes
+    assert pit.area.equals(mound.area)
+    assert pit.top.equals(shell)
+
+
+def test_lines_without_a_partner_are_told() -> None:
+    ring = LineString(shapely.box(0, 0, 1, 1).exterior.coords)
+    found = pairs([ring], [level(0)])
+    assert not found.slopes
+    assert [problem.reason for problem in found.problems] == [
+        "no line goes with this top",
+        "no line goes with this toe",
+    ]
+    assert all(problem.where is not None for problem in found.problems)
+    crossing = pairs([LineString([(0, 0), (9, 9)])], [LineString([(0, 1), (9, 8)])])
+    assert [problem.kind for problem in crossing.problems] == ["refused"]
+
+
+def test_pieces_are_joined_whichever_way_they_run() -> None:
+    pieces = [LineString([(0, 0), (1, 0)]), LineString([(3, 0), (1, 0)]), level(9)]
+    assert sorted(line.length for line in joined(pieces)) == [3.0, 9.0]
+
+
+def drawing(path: Path, top: str = "SKARPA_GORA", toe: str = "SKARPA_DOL") -> Path:
+    """A half annulus in lines and arcs, one edge in two pieces, and a line on another layer."""
+    document = ezdxf.new()
+    space = document.modelspace()
+    space.add_arc((0, 0), 10, 0, 180, dxfattribs={"layer": top})
+    space.add_lwpolyline([(10, 0), (10, -5)], dxfattribs={"layer": top})
+    space.add_lwpolyline([(12, 0, 0, 0, 1), (-12, 0)], format="xyseb", dxfattribs={"layer": toe})
+    space.add_line((12, -5), (12, 0), dxfattribs={"layer": toe})
+    space.add_line((0, 0), (1, 1), dxfattribs={"layer": "0"})
+    document.saveas(path)
+    return path
+
+
+@pytest.mark.parametrize("names", [("SKARPA_GORA", "SKARPA_DOL"), ("a", "b")])
+def test_tops_and_toes_are_found_by_their_layers(names: tuple[str, str], tmp_path: Path) -> None:
+    path = drawing(tmp_path / "a.dxf", *names)
+    told = {} if len(names[0]) > 1 else {"top": "A", "toe": "b*"}
+    (slope,), problems = read_slopes(path, **told)  # type: ignore[arg-type]
+    assert not problems
+    assert slope.area.area == pytest.approx(22.0 * np.pi + 10.0, rel=1e-3)
+    assert slope.top.length == pytest.approx(10.0 * np.pi + 5.0, rel=1e-3)
+    off = np.hypot(*shapely.get_coordinates(slope.top).T)
+    assert off[shapely.get_coordinates(slope.top)[:, 1] >= 0.0] == pytest.approx(10.0, rel=2e-4)
+    slope.strip()
+
+
+def test_heights_of_polylines_are_known(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    space = document.modelspace()
+    space.add_polyline3d([(0, 0, 172), (9, 0, 173)], dxfattribs={"layer": "top"})
+    space.add_polyline3d([(0, 2, 170), (9, 2, 0)], dxfattribs={"layer": "toe"})
+    document.saveas(tmp_path / "a.dxf")
+    (slope,), _ = read_slopes(tmp_path / "a.dxf")
+    assert slope.top_heights is not None
+    assert slope.top_heights[:, 2].tolist() == [172.0, 173.0]
+    assert slope.toe_heights is not None
+    assert slope.toe_heights[:, 2].tolist() == [170.0]
+
+
+def test_layers_that_are_missing_are_named(tmp_path: Path) -> None:
+    path = drawing(tmp_path / "a.dxf", "a", "b")
+    with pytest.raises(ParameterError, match="named like x, expected top to name one of '0', 'a'"):
+        read_slopes(path, top="x", toe="b")
+    with pytest.raises(ParameterError, match=r"named like \*gora\* or .*, expected top to name"):
+        read_slopes(path)
+    document = ezdxf.new()
+    for k in range(12):
+        document.modelspace().add_line((0, 0), (1, k), dxfattribs={"layer": f"L{k:02}"})
+    document.saveas(tmp_path / "many.dxf")
+    with pytest.raises(ParameterError, match=r"'L00', .*'L07' and 4 more$"):
+        read_slopes(tmp_path / "many.dxf")
+    broken = tmp_path / "b.dxf"
+    broken.write_text("nothing")
+    with pytest.raises(ParameterError, match=r"b\.dxf' cannot be read as a drawing"):
+        read_slopes(broken)
+
+
+def test_the_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = drawing(tmp_path / "a.dxf")
+    monkeypatch.setattr("midrib.formats.cad.find_spec", lambda _: None)
+    with pytest.raises(MissingDependencyError, match=r"pip install midrib\[dxf\]"):
+        read_slopes(path)
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
+def test_lines_and_arcs_of_a_real_drawing_join_into_loops() -> None:
+    from midrib.formats.cad import pieces
+
+    document = ezdxf.readfile(FOLDER / "dxf_2_polylines.dxf")
+    lines = joined([*pieces(document, {"0"})])
+    assert len(lines) < 79
+    assert all(Polygon(line).is_valid for line in lines if line.is_closed)

@@ -1,0 +1,219 @@
+"""Checks find what is wrong, where it is, and nothing else."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from shapely import LineString, Point, Polygon, box
+
+from midrib.formats.slopes import read_slopes
+from midrib.hatching import checking
+from midrib.hatching.checking import CHECKS, Finding, check_slopes, falls
+from midrib.hatching.slope import Slope, SlopeProblem
+
+FOLDER = Path(__file__).parents[3] / "shared" / "data"
+REAL = pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
+AREA = box(0, 0, 9, 2)
+TOP, TOE = LineString([(0, 2), (9, 2)]), LineString([(0, 2), (0, 0), (9, 0), (9, 2)])
+SLOPE = Slope("a", "other", AREA, TOP, TOE, "test")
+MOUND = Slope(
+    "m",
+    "other",
+    Polygon(box(0, 0, 9, 9).exterior, [box(3, 3, 6, 5).exterior]),
+    LineString(box(3, 3, 6, 5).exterior.coords),
+    LineString(box(0, 0, 9, 9).exterior.coords),
+    "test",
+)
+
+
+@pytest.fixture(autouse=True)
+def _without_engine(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave out the one check that hatches; it has a test of its own."""
+    monkeypatch.setattr(checking, "engine", lambda: None)
+
+
+def with_heights(slope: Slope, top: list[list[float]], toe: list[list[float]]) -> Slope:
+    """Slope with points of known height."""
+    return replace(slope, top_heights=np.array(top), toe_heights=np.array(toe))
+
+
+def names(findings: list[Finding]) -> list[tuple[str, str]]:
+    """Slope and check of each finding."""
+    return [(finding.id, finding.check) for finding in findings]
+
+
+def test_a_good_slope_has_no_finding() -> None:
+    good = with_heights(SLOPE, [[0, 2, 170]], [[0, 0, 168], [9, 0, 169]])
+    assert check_slopes([SLOPE, good, MOUND]) == []
+
+
+def test_problems_of_reading_are_listed_first() -> None:
+    problems = [SlopeProblem("x", "orientation", "odd"), SlopeProblem("y", "refused", "no top")]
+    findings = check_slopes([], problems)
+    assert names(findings) == [("y", "refused"), ("x", "orientation")]
+    assert list(CHECKS) == sorted(CHECKS, key=list(CHECKS).index)
+
+
+@given(
+    rise=st.floats(-5.0, 5.0),
+    gradient=st.floats(-3.0, 3.0),
+    stations=st.lists(st.floats(0.5, 8.5), min_size=1, max_size=6),
+)
+def test_the_top_is_compared_beside_the_toe(
+    rise: float, gradient: float, stations: list[float]
+) -> None:
+    """Edges that climb along themselves, far more than across: means would not tell."""
+    top = [[0.0, 2.0, 170.0], [9.0, 2.0, 170.0 + 9.0 * gradient]]
+    toe = [[x, 0.0, 170.0 + x * gradient - rise] for x in stations]
+    slope = with_heights(SLOPE, top, toe)
+    assert falls(slope)[:, 2] == pytest.approx(rise, abs=1e-9)
+    found = check_slopes([slope])
+    if rise < -1e-9:
+        assert names(found) == [("a", "swapped")]
+        assert found[0].where is not None
+        assert found[0].where.distance(LineString([(0, 0), (9, 0)])) == 0.0
+        assert f"up to {-rise:.2g}"[:8] in found[0].reason
+    elif rise > 1e-9:
+        assert found == []
+
+
+def test_shared_ends_tell_nothing() -> None:
+    ends = [[0.0, 2.0, 170.0], [9.0, 2.0, 168.0]]
+    assert falls(with_heights(SLOPE, ends, ends)).shape == (0, 3)
+    assert falls(SLOPE).shape == (0, 3)
+
+
+def test_heights_run_round_a_mound() -> None:
+    slope = with_heights(MOUND, [[3, 3, 10], [6, 5, 12]], [[0, 0, 8], [9, 9, 8], [9, 0, 8]])
+    assert len(falls(slope)) == 3
+    assert (falls(slope)[:, 2] >= 2.0).all()
+    assert names(check_slopes([with_heights(MOUND, [[3, 3, 5]], [[0, 0, 8]])])) == [
+        ("m", "swapped")
+    ]
+
+
+@pytest.mark.parametrize(
+    ("slope", "place"),
+    [
+        (replace(SLOPE, top=LineString([(0, 2), (4, 2.5), (9, 2)])), Point(4, 2.5)),
+        (replace(SLOPE, top=LineString([(0, 2), (9, 0)])), Point(4.5, 1)),
+        (replace(SLOPE, toe=LineString([(0, 2), (-1, 0), (9, 0), (9, 2)])), Point(-1, 0)),
+    ],
+)
+def test_edges_off_the_boundary_are_found_with_the_place(slope: Slope, place: Point) -> None:
+    (finding,) = check_slopes([slope])
+    assert finding.check == "off-ring"
+    assert finding.where == place
+
+
+def test_edges_that_leave_a_part_of_the_boundary_are_found() -> None:
+    stub = replace(
+        SLOPE, top=LineString([(0, 2), (5, 2)]), toe=LineString([(0, 2), (0, 0), (9, 0)])
+    )
+    (finding,) = check_slopes([stub])
+    assert finding.check == "off-ring"
+    assert "belongs to neither curve" in finding.reason
+
+
+@pytest.mark.parametrize(("height", "is_doubtful"), [(2.9, False), (3.2, True)])
+def test_very_unequal_edges_are_doubtful(height: float, is_doubtful: bool) -> None:
+    area = box(0, 0, 2, height)
+    top = LineString([(0, height), (2, height)])
+    toe = LineString([(0, height), (0, 0), (2, 0), (2, height)])
+    for edges in ((top, toe), (toe, top)):
+        slope = Slope("a", "other", area, *edges, "test")
+        assert bool(check_slopes([slope])) == is_doubtful
+
+
+@pytest.mark.parametrize(
+    ("strokes", "count"),
+    [
+        ([[(1, 2), (1, 0)], [(2, 2), (2, 0)]], 0),
+        ([[(1, 2), (1, 0)], [(2, 2), (1, 0)]], 0),  # a common foot
+        ([[(1, 2), (1, 0)], [(1, 1), (3, 1)]], 0),  # one starts on the other
+        ([[(0, 2), (9, 2)], [(1, 2), (1, 0)]], 0),  # an outline and a stroke
+        ([[(1, 2), (3, 0)], [(3, 2), (1, 0)]], 1),
+        ([[(1, 2), (3, 0)], [(3, 2), (1, 0)], [(2, 2), (2, 0)]], 3),
+        ([[(1, 2), (1, 0)], [(1, 1), (1, -1)]], 1),  # one along the other
+        ([[(1, 2), (1, 0)], [(1, 0), (1, 2)]], 1),  # twice the same
+    ],
+)
+def test_strokes_in_each_others_way_are_found(
+    strokes: list[list[tuple[float, float]]], count: int
+) -> None:
+    found = check_slopes([SLOPE], strokes=[None, *map(LineString, strokes)])
+    assert names(found) == [("a", "crossing")] * count
+    for finding in found:
+        assert finding.where is not None
+        assert finding.where.distance(AREA) < 1e-9
+
+
+def test_strokes_off_every_slope_have_no_name() -> None:
+    cross = [LineString([(20, 0), (22, 2)]), LineString([(20, 2), (22, 0)])]
+    (finding,) = check_slopes([SLOPE], strokes=cross)
+    assert (finding.id, finding.where) == ("", Point(21, 1))
+    assert finding.reason == "strokes 1 and 2 cross"
+
+
+def test_slopes_that_cannot_be_matched_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
+    def hatch(strip: object, standard: str, scale: float, *, metres_per_unit: float) -> object:
+        assert strip is not None
+        assert (standard, scale, metres_per_unit) == ("iof-104", 1000.0, 0.5)
+        problem = SlopeProblem("", "", "a stroke is left out", Point(4, 1))
+        return SimpleNamespace(problems=[problem])
+
+    monkeypatch.setattr(checking, "engine", lambda: hatch)
+    (finding,) = check_slopes([SLOPE], standard="iof-104", scale=1000.0, metres_per_unit=0.5)
+    assert finding == Finding("a", "unmatched", "a stroke is left out", Point(4, 1))
+
+
+@pytest.mark.shared
+@REAL
+def test_known_heights_confirm_every_top_of_opole() -> None:
+    slopes, problems = read_slopes(FOLDER / "pl_bdot500_opole_west.gml")
+    falling = [fall for fall in map(falls, slopes) if len(fall)]
+    assert len(falling) == 48
+    assert sum(map(len, falling)) == 224
+    assert min(fall[:, 2].min() for fall in falling) > 0.0
+    assert check_slopes(slopes, problems) == []
+
+
+@pytest.mark.shared
+@REAL
+def test_swapped_slopes_of_opole_are_found() -> None:
+    slopes, _ = read_slopes(FOLDER / "pl_bdot500_opole_west.gml")
+    turned = [
+        replace(s, top=s.toe, toe=s.top, top_heights=s.toe_heights, toe_heights=s.top_heights)
+        for s in slopes
+    ]
+    checkable = {slope.id for slope in turned if len(falls(slope))}
+    found = check_slopes(turned)
+    assert {finding.id for finding in found} == checkable
+    assert {finding.check for finding in found} == {"swapped"}
+
+
+@pytest.mark.shared
+@REAL
+def test_slopes_of_gooi_with_the_crest_on_a_short_side_are_doubtful() -> None:
+    found = check_slopes(*read_slopes(FOLDER / "nl_bgt_gooi.gpkg"))
+    checks = [finding.check for finding in found]
+    assert (checks.count("refused"), checks.count("orientation"), len(checks)) == (50, 7, 57)
+    assert all(finding.where is not None for finding in found)
+
+
+@pytest.mark.shared
+@REAL
+def test_the_reference_drawing_has_no_crossing() -> None:
+    from tests.formats.layers import read_all
+
+    path = FOLDER / "pl_szkoleniowy_skarpa_kreski.gpkg"
+    strokes = read_all(path, "kreski_wzorcowe")[2]
+    slopes, problems = read_slopes(path)
+    assert check_slopes(slopes, problems, strokes=strokes) == []
+    moved = shapely.affinity.translate(strokes[20], 0.0, 3.0)
+    assert check_slopes(slopes, problems, strokes=[*strokes, moved])
