@@ -11,7 +11,6 @@ from pyarrow import csv
 from shapely import LineString, Point
 
 from midrib.formats.writing import Features, write_layer
-from midrib.hatching import checking
 from tests.cli.commands import Runner
 from tests.formats.gml_files import BDOT_2015, ZONE_6, collection, earthwork, position, ring
 from tests.formats.layers import RD_NEW, crs_name, projjson, read_all, write
@@ -21,12 +20,6 @@ CORNERS = [(E0, N0), (E0 + 9, N0), (E0 + 10, N0 + 2), (E0, N0 + 2)]
 GOOD = earthwork("good", ring(CORNERS), CORNERS[0], CORNERS[1])
 TOPLESS = earthwork("topless", ring(CORNERS))
 DOUBTFUL = earthwork("doubtful", ring(CORNERS), (E0 + 4, N0), CORNERS[2])
-
-
-@pytest.fixture(autouse=True)
-def _without_engine(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave out the check that hatches."""
-    monkeypatch.setattr(checking, "engine", lambda: None)
 
 
 @pytest.fixture

@@ -209,7 +209,7 @@ def test_sides_of_a_dyke_need_a_part_each(tmp_path: Path) -> None:
     [
         ("OT_Budowle", "rodzajBudowli", "n", "wall"),
         ("OT_Komunikacja", "rodzajObiektu", "s", "stairs"),
-        ("OT_Komunikacja", "rodzajObiektu", "j", "other"),
+        ("OT_Komunikacja", "rodzajObiektu", "j", "directed"),
     ],
 )
 def test_walls_and_stairs_follow_their_directional_polyline(

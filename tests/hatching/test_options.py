@@ -1,6 +1,5 @@
 """What each option does, and how wrong ones are refused."""
 
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,7 +7,7 @@ import pytest
 import shapely
 from shapely import LineString, Point, box
 
-from midrib import hatch
+from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.hatching import add_stroke, delete_stroke, move_stroke
 from midrib.strip import Strip
@@ -61,18 +60,19 @@ def test_spacing_and_its_bounds() -> None:
 
 
 @pytest.mark.parametrize("least", [0.0, 0.7])
-def test_a_standard_is_a_name_or_a_record(least: float) -> None:
-    record = SimpleNamespace(
-        factor=None,
-        spacing=5.0,
-        min_spacing=least,
-        max_spacing=None,
-        pattern="LSS",
-        short_ratio=0.3,
+def test_a_standard_is_a_name_or_one_of_the_callers(least: float) -> None:
+    mine = standard("pl-2021-slope-reinforced").with_values(
+        spacing=5.0, min_spacing=least, pattern="LSS", short_ratio=0.3
     )
-    hatching = hatch(rectangle(), record, 1000)
+    hatching = hatch(rectangle(), mine, 1000)
     assert hatching.spacing == pytest.approx(np.full(18, 5.0))
     assert shapely.length(hatching.strokes[-3:]) == pytest.approx([3.0, 3.0, 10.0])
+
+
+def test_figures_of_a_standard_for_other_scales_hold_there() -> None:
+    apart = [hatch(rectangle(), "pl-2021-stairs", scale).spacing for scale in (500, 1000)]
+    assert apart[0] == pytest.approx(np.full(len(apart[0]), 0.5))
+    assert apart[1] == pytest.approx(np.full(len(apart[1]), 0.75), rel=0.005)
 
 
 @pytest.mark.parametrize("ratio", [0.05, 0.33, 0.95])
@@ -173,7 +173,7 @@ def test_editing_refuses_what_cannot_be() -> None:
     ("options", "message"),
     [
         ({"standard": "no such"}, "standard"),
-        ({"standard": 5}, "expected a name or a Standard"),
+        ({"standard": 5}, "standard is 5, expected one of"),
         ({"scale": 0}, "scale is 0, expected a number above 0"),
         ({"metres_per_unit": -1}, "metres_per_unit is -1"),
         ({"factor": float("nan")}, "factor is nan"),

@@ -16,7 +16,7 @@ def check(
     end: cli.End = None,
     history: cli.History = False,
     strokes: cli.Strokes = None,
-    standard: cli.Standard = "pl-2021-slope-unreinforced",
+    standard: cli.Standard = "pl-2021",
     scale: cli.Scale = 500.0,
     out: cli.FindingsOut = None,
     figure: cli.FindingsFigure = None,

@@ -251,7 +251,8 @@ Strokes: TypeAlias = Annotated[
     ),
 ]
 Standard: TypeAlias = Annotated[
-    str, of_check(metavar="NAME", help="How the slopes would be hatched.")
+    str,
+    of_check(metavar="NAME", help="How the slopes would be hatched: as of [bold]midrib hatch[/]."),
 ]
 Scale: TypeAlias = Annotated[float, of_check(metavar="N", min=1.0, help="Scale of the map, 1 : N.")]
 

@@ -133,6 +133,8 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
     model = "2015" if feature.tag.startswith(f"{{{MODEL_2015}") else "2021"
     name, said = gml.local(feature), {"gml_id": gml.identifier(feature)} | gml.leaves(feature)
     kind, crs = kind_of(name, said), gml.system_in(feature).crs
+    if kind == "other" and not is_slope:
+        kind = "directed"
 
     def slope(identifier: str, area: Polygon, edges: "Edges") -> Slope:
         return Slope(

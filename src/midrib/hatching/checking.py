@@ -2,8 +2,6 @@
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +10,10 @@ from shapely import Point
 
 from midrib import interrupts
 from midrib.errors import InvalidAreaError
+from midrib.hatching.hatch import hatch
+from midrib.hatching.keys import STROKED
 from midrib.hatching.slope import Slope, SlopeProblem
+from midrib.hatching.standards import standard_for, standards_named
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -26,10 +27,9 @@ CHECKS = {
     "swapped": "the top is lower than the toe",
     "off-ring": "an edge, or its start or end, is off the boundary",
     "orientation": "it is doubtful which edge is the top",
-    "unmatched": "no strokes lead from the top to the toe in some place",
+    "unmatched": "a stroke from the top to the toe is left out or cut short in some place",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
-ENGINE = "midrib.hatching.hatch"
 MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
 ON_BOUNDARY = 1e-9  # of the extent: what a file loses of a place
 MEET_IN_ENDS = "F********"  # DE-9IM: two strokes have no inner point in common
@@ -61,7 +61,7 @@ def check_slopes(
     problems: Iterable[SlopeProblem] = (),
     *,
     strokes: Any = (),
-    standard: Any = "pl-2021-slope-unreinforced",
+    standard: Any = "pl-2021",
     scale: float = 500.0,
     metres_per_unit: float = 1.0,
 ) -> list[Finding]:
@@ -75,9 +75,11 @@ def check_slopes(
     strokes : array_like of LineString, optional
         Strokes that are drawn already: those that cross, or lie on each other, are listed, each
         pair once. That they meet in an end is no fault.
-    standard : str or Standard, default "pl-2021-slope-unreinforced"
+    standard : str or Standard, default "pl-2021"
+        A standard, a file of one, or the beginning of names: each slope is hatched by the one that
+        is made for its kind, to see whether it can be.
     scale : float, default 500
-        How the slopes would be hatched, to see whether they can be.
+        Of the map, 500 for 1:500.
     metres_per_unit : float, default 1
         Length of a coordinate unit.
 
@@ -85,6 +87,11 @@ def check_slopes(
     -------
     list of Finding
         In the order of ``CHECKS``, then of the slopes.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such standard.
 
     Notes
     -----
@@ -102,13 +109,13 @@ def check_slopes(
     [('swapped', 'POINT (5 0)')]
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
-    hatch = engine()
+    standards_named(standard)  # refuses an unknown one before any work is done
     for slope in slopes:
         interrupts.check()
         off = [*boundary(slope)]
         found += [*heights(slope), *off, *lengths(slope)]
-        if hatch is not None and not off:
-            found += matching(slope, hatch, standard, scale, metres_per_unit)
+        if not off:
+            found += matching(slope, standard, scale, metres_per_unit)
     found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
     order = {check: k for k, check in enumerate(CHECKS)}
     return sorted(found, key=lambda finding: order[finding.check])
@@ -178,24 +185,20 @@ def lengths(slope: Slope) -> Iterator[Finding]:
 
 
 def matching(
-    slope: Slope, hatch: Any, standard: Any, scale: float, metres_per_unit: float
+    slope: Slope, standard: Any, scale: float, metres_per_unit: float
 ) -> Iterator[Finding]:
-    """Find places where a slope cannot be hatched."""
+    """Find places where a slope cannot be hatched, if its kind is hatched at all."""
+    known = standard_for(standard, slope.kind)
+    if known is None or known.symbol not in STROKED:
+        return
     try:
-        done = hatch(slope.strip(), standard, scale, metres_per_unit=metres_per_unit)
+        done = hatch(slope.strip(), known, scale, metres_per_unit=metres_per_unit)
     except InvalidAreaError as error:
         middle = slope.top.interpolate(0.5, normalized=True)
         yield Finding(slope.id, "unmatched", str(error), Point(middle.x, middle.y))
         return
     for problem in done.problems:
         yield Finding(slope.id, "unmatched", problem.reason, problem.where)
-
-
-def engine() -> Any:
-    """Return what hatches a strip, None where it is not there."""
-    if find_spec(ENGINE) is None:
-        return None
-    return import_module(ENGINE).hatch
 
 
 def crossings(strokes: "NDArray[np.object_]", slopes: Sequence[Slope]) -> Iterator[Finding]:

@@ -1,14 +1,13 @@
 """How far apart strokes are and how long: the rule of a standard, in ground units."""
 
 from dataclasses import dataclass
-from importlib import import_module
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
+from midrib.hatching.standards import standard as standard_named
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -19,34 +18,6 @@ LEAST_LENGTH = 0.25  # of the least gap: about the width of the line, shorter st
 MILLIMETRES = 1000.0
 VALUES = ("factor", "spacing", "min_spacing", "max_spacing", "pattern", "short_ratio")
 SHORTEST, LONGEST = 0.05, 0.95  # short strokes, of whole ones
-
-
-class Standard(Protocol):
-    """What a rule needs to know of a standard; lengths are millimetres on paper."""
-
-    @property
-    def factor(self) -> float | None:
-        """Gap over length of stroke, None for fixed gaps."""
-
-    @property
-    def spacing(self) -> float | None:
-        """Fixed gap, where there is no factor."""
-
-    @property
-    def min_spacing(self) -> float:
-        """Least gap."""
-
-    @property
-    def max_spacing(self) -> float | None:
-        """Largest gap, if there is one."""
-
-    @property
-    def pattern(self) -> str:
-        """L and S in turn."""
-
-    @property
-    def short_ratio(self) -> float:
-        """Length of a short stroke over that of a whole one."""
 
 
 @dataclass(frozen=True)
@@ -84,28 +55,19 @@ class Rule:
         return gaps
 
 
-# The paper's formula b = (a + c) / 4, for the name that is the default, if there are no others.
-STAND_IN = Rule(0.5, None, 0.72, None, "LS", 0.5)
-STAND_IN_NAME = "pl-2021-slope-unreinforced"
-STANDARDS = "midrib.hatching.standards"
-
-
 def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -> Rule:
-    """Return the rule of a standard, given by name or as a record, with some values replaced.
+    """Return the rule that a standard has at a scale, with some values replaced.
 
     Raises
     ------
     ParameterError
-        If a value is none that it can have.
+        If there is no such standard, or a value is none that it can have.
     """
     check_positive(scale, "scale")
     check_positive(metres_per_unit, "metres_per_unit")
     ground = float(scale) / MILLIMETRES / float(metres_per_unit)
-    found: Standard = standard_of(standard) if isinstance(standard, str) else standard
-    if any(not hasattr(found, name) for name in VALUES):
-        msg = f"standard is {shown(standard)}, expected a name or a Standard"
-        raise ParameterError(msg)
-    values: dict[str, Any] = {name: getattr(found, name) for name in VALUES}
+    at_scale = standard_named(standard).at(scale)
+    values: dict[str, Any] = {name: getattr(at_scale, name) for name in VALUES}
     given = {name: value for name, value in overrides.items() if value is not None}
     for name, other in (("factor", "spacing"), ("spacing", "factor")):
         if name in given:
@@ -138,23 +100,6 @@ def check_gaps(values: dict[str, Any]) -> None:
         value = values[name]
         if value is not None and not (name == "min_spacing" and factor is None and value == 0.0):
             check_positive(value, name)
-
-
-def standard_of(name: str) -> Standard:
-    """Return a standard by its name or path.
-
-    Raises
-    ------
-    ParameterError
-        If there is none.
-    """
-    if find_spec(STANDARDS) is not None:
-        found: Standard = import_module(STANDARDS).standard(name)
-        return found
-    if name == STAND_IN_NAME:
-        return STAND_IN
-    msg = f"standard is {shown(name)}, expected {STAND_IN_NAME!r}"
-    raise ParameterError(msg)
 
 
 def check_positive(value: Any, name: str) -> None:

@@ -22,6 +22,7 @@ SlopeKind: TypeAlias = Literal[
     "wall",
     "stairs",
     "conveyor",
+    "directed",  # no slope: a road or another area with a line along one edge
     "other",
 ]
 KINDS: tuple[SlopeKind, ...] = SlopeKind.__args__  # type: ignore[attr-defined]
