@@ -130,7 +130,7 @@ def test_objects_of_other_kinds_are_left_out_with_a_note(
         "hatch", slopes, tmp_path / "out.svg", "--top", "crest", "--standard", "pl-2021-wall"
     )
     assert outcome.code == 0
-    assert "note: 2 objects left out" in outcome.err
+    assert "note: objects left out: 2" in outcome.err
 
 
 @pytest.mark.parametrize(

@@ -13,7 +13,7 @@ from midrib.cli.profile import profile
 __all__ = ["app"]
 
 app = typer.Typer(
-    help="One unbranched line inside a long area: centre lines of rivers, roads, slopes.",
+    help="Areas to lines: one unbranched line inside each river or road, strokes on slopes.",
     epilog="Example:  midrib collapse rivers.gpkg centrelines.gpkg",
     no_args_is_help=True,
     add_completion=False,

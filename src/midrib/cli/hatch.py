@@ -140,4 +140,4 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     names = {LEFT_OUT: "objects left out", STROKE: "places where a stroke is amiss"}
     for kind, number in found.items():
         if kind != REFUSED:
-            report.say(f"note: {number:,} {names.get(kind, f'doubts: {kind}')}")
+            report.say(f"note: {names.get(kind, f'doubts, {kind}')}: {number:,}")

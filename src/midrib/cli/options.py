@@ -444,7 +444,7 @@ EndStrokes: TypeAlias = Annotated[
 ]
 Stiffness: TypeAlias = Annotated[
     float | None,
-    of_strokes(metavar="N", help="More turns slower at corners, less is nearer to normals: 1.2."),
+    of_strokes(metavar="N", help="More turns slower at corners, less is nearer to normals: 0.9."),
 ]
 RuleOption: TypeAlias = Annotated[
     DrawingRule, of_strokes("--rule", metavar="NAME", help="matching; paper, for comparison.")

@@ -74,7 +74,7 @@ def join_middles(
         joined = kernel.join_middles(mesh, *strung, *layout.scale)
     else:
         trace = trace_wider if channel == "wider" or layout.has_bridges else trace_trunk
-        within = rule not in ("main", "caps"), centred_within
+        within = rule not in ("main", "caps"), True, centred_within
         joined = trace(mesh, main, auxiliary, *strung, *within, *layout.scale)
     points, source, loops, beads = joined
     if rule not in RULES and len(ends.point):

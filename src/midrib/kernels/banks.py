@@ -213,18 +213,21 @@ def slope_along(lean: Lean, x: float, y: float, ux: float, uy: float) -> float:
 @njit(borrows=True)
 def level_between(
     banks: Banks, px: float, py: float, qx: float, qy: float, t: float
-) -> tuple[float, float]:
+) -> tuple[float, float, float]:
     """Return a level point on the segment from p, nearer to main, to q, nearer to the auxiliary.
+
+    And the width there: how far the banks are, together.
 
     Newton's steps from the share t, halving where they leave what is known to hold the point:
     one step is exact between two straight banks.
     """
     ux, uy = qx - px, qy - py
     low, high = 0.0, 1.0
-    x, y = px, py
+    x, y, width = px, py, 0.0
     for _ in range(ROUNDS):
         x, y = px + t * ux, py + t * uy
         lean = lean_at(banks, x, y)
+        width = lean.to_main + lean.to_auxiliary
         if is_level(lean, banks.slack):
             break
         if lean.value < 0.0:
@@ -234,7 +237,7 @@ def level_between(
         slope = slope_along(lean, x, y, ux, uy)
         new = t - lean.value / slope if slope > 0.0 else low
         t = new if low < new < high else (low + high) / 2.0
-    return x, y
+    return x, y, width
 
 
 @njit(borrows=True)
@@ -285,6 +288,6 @@ def level_from(
         if (lean.value < 0.0) != (was < 0.0) and not is_level(lean, banks.slack):
             if was > 0.0:
                 px, py, x, y = x, y, px, py
-            x, y = level_between(banks, px, py, x, y, 0.5)
+            x, y, _ = level_between(banks, px, py, x, y, 0.5)
             return True, x, y
     return False, x, y

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import banks_of, level_between
+from midrib.kernels.banks import banks_of
 from midrib.kernels.boxtree import DEPTH, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.clearance import nearest_of
@@ -34,7 +34,7 @@ from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.trunk import APART, SHARE_OF_SLACK, ends_of, trace
-from midrib.kernels.ways import AUXILIARY, MAIN, Stops, shores_outside, stops_on_way
+from midrib.kernels.ways import AUXILIARY, MAIN, Stops, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
 __all__ = ["trace_wider", "with_islands"]
@@ -69,6 +69,7 @@ def trace_wider(
     end_origin: Floats,
     end_at: Ints,
     is_trimmed: bool,
+    every_bead: bool,
     tolerance: float,
     scale_x: float,
     scale_y: float,
@@ -82,6 +83,7 @@ def trace_wider(
     points, at : radii, as ``draw_radii`` returns them
     end, end_origin, end_at : end points, as in ``join_middles``
     is_trimmed : whether the ends may lie farther in than the ends of the two banks
+    every_bead : whether all points of radii are wanted on the trunk
     tolerance : how far (in lengths) a probe may be from the trunk
     scale_x, scale_y : lengths of one unit of x and of y
 
@@ -99,18 +101,9 @@ def trace_wider(
     for k in range(shores.first_island, islands.is_main.size):
         islands.is_main[k] = root[shores.loop[mesh.tri[islands.side[islands.start[k]]]]] == MAIN
     banks = banks_of(mesh, main, auxiliary, islands, slack, scale_x, scale_y)
-    for i in range(points.shape[0]):
-        x, y = level_between(
-            banks,
-            points[i, 0] * scale_x,
-            points[i, 1] * scale_y,
-            points[i, 2] * scale_x,
-            points[i, 3] * scale_y,
-            0.5,
-        )
-        beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
     is_main = root[shores.loop] == MAIN
     near = np.zeros((n, 2), np.intp)
+    level_beads(banks, beads, near, points, first, every_bead, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)

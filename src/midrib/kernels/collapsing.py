@@ -60,6 +60,6 @@ def collapse_rings(
     middle, tolerance = divided.middle[:, :2].copy(), share * divided.mean_width
     line = trace_trunk(
         mesh, main, auxiliary, drawn.points, drawn.at, middle, middle, divided.middle_at,
-        False, tolerance, scale_x, scale_y,
+        False, False, tolerance, scale_x, scale_y,
     )  # fmt: skip
     return line.points.shape[0] > 1, line.points, line.loops

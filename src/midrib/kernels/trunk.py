@@ -48,7 +48,7 @@ from midrib.kernels.paths import (
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import ray_meets_side
-from midrib.kernels.ways import Stops, is_of_main, shores_outside, stops_on_way
+from midrib.kernels.ways import Stops, is_of_main, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
 __all__ = ["APART", "SHARE_OF_SLACK", "ends_of", "trace", "trace_trunk"]
@@ -91,6 +91,7 @@ def trace_trunk(
     end_origin: Floats,
     end_at: Ints,
     is_trimmed: bool,
+    every_bead: bool,
     tolerance: float,
     scale_x: float,
     scale_y: float,
@@ -104,6 +105,7 @@ def trace_trunk(
     points, at : radii, as ``draw_radii`` returns them
     end, end_origin, end_at : end points, as in ``join_middles``
     is_trimmed : whether the ends may lie farther in than the ends of the two banks
+    every_bead : whether all points of radii are wanted on the trunk, past islands too
     tolerance : how far (in lengths) a probe may be from the trunk
     scale_x, scale_y : lengths of one unit of x and of y
 
@@ -125,17 +127,7 @@ def trace_trunk(
         loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
-    for i in range(points.shape[0]):
-        x, y = level_between(
-            banks,
-            points[i, 0] * scale_x,
-            points[i, 1] * scale_y,
-            points[i, 2] * scale_x,
-            points[i, 3] * scale_y,
-            0.5,
-        )
-        beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
-        near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
+    level_beads(banks, beads, near, points, first, every_bead or not with_islands, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = Stops(beads.point[kept], kept, near[kept])
     if with_islands:
@@ -227,9 +219,9 @@ def opposite_turn(
         hy = mesh.y[c] + share * (mesh.y[d] - mesh.y[c])
     there = lean_at(banks, hx * scale_x, hy * scale_y)
     if here.value < 0.0 and there.value > 0.0:
-        mx, my = level_between(banks, x * scale_x, y * scale_y, hx * scale_x, hy * scale_y, 0.5)
+        mx, my, _ = level_between(banks, x * scale_x, y * scale_y, hx * scale_x, hy * scale_y, 0.5)
     elif here.value > 0.0 and there.value < 0.0:
-        mx, my = level_between(banks, hx * scale_x, hy * scale_y, x * scale_x, y * scale_y, 0.5)
+        mx, my, _ = level_between(banks, hx * scale_x, hy * scale_y, x * scale_x, y * scale_y, 0.5)
     else:
         return -1, 0.0, 0.0
     mx, my = mx / scale_x, my / scale_y

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, lean_at, level_between
+from midrib.kernels.banks import Banks, level_between
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import Loops, side_length
 from midrib.kernels.jit import njit
@@ -21,10 +21,19 @@ from midrib.kernels.paths import Beads
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["AUXILIARY", "MAIN", "Stops", "is_of_main", "shores_outside", "stops_on_way"]
+__all__ = [
+    "AUXILIARY",
+    "MAIN",
+    "Stops",
+    "is_of_main",
+    "level_beads",
+    "shores_outside",
+    "stops_on_way",
+]
 
 MAIN, AUXILIARY = 0, 1
 CLOSE = 0.5  # widths: stops nearer to each other than that are as good as one
+CLOSE_SIDES = 0.25  # the same, for middles of sides: the stop may be where their end is
 
 
 class Stops(NamedTuple):
@@ -33,6 +42,31 @@ class Stops(NamedTuple):
     point: Floats  # (n, 2)
     at: Ints  # the bead that each is, or -1 - (the triangle it is in)
     nearest: Ints  # (n, 2) segments of the main and of the auxiliary bank
+
+
+@njit(borrows=True)
+def level_beads(
+    banks: Banks,
+    beads: Beads,
+    near: Ints,
+    points: Floats,
+    first: int,
+    every_one: bool,
+    scale_x: float,
+    scale_y: float,
+) -> None:
+    """Move all beads of radii, or the first and the last, onto the trunk; note what is near them.
+
+    Past islands the trunk goes by the sides between the banks: only its ends may be beads.
+    """
+    step = 1 if every_one else max(points.shape[0] - 1, 1)
+    for i in range(0, points.shape[0], step):
+        x, y, _ = level_between(
+            banks, points[i, 0] * scale_x, points[i, 1] * scale_y,
+            points[i, 2] * scale_x, points[i, 3] * scale_y, 0.5,
+        )  # fmt: skip
+        beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
+        near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
 
 
 @njit()
@@ -131,16 +165,19 @@ def stops_on_way(
     point, at = np.empty((way.size + 2, 2)), np.empty(way.size + 2, np.intp)
     nearest = np.empty((way.size + 2, 2), np.intp)
     before_x, before_y = np.inf, np.inf
+    middle_x, middle_y, wide = np.inf, np.inf, 0.0  # of the last side that was looked at
     for e in way:
         p, q = mesh.tri[e], mesh.tri[next_side(e)]
         if not is_main[p]:
             p, q = q, p
-        x, y = level_between(
-            banks, mesh.x[p] * scale_x, mesh.y[p] * scale_y,
-            mesh.x[q] * scale_x, mesh.y[q] * scale_y, 0.5,
-        )  # fmt: skip
-        lean = lean_at(banks, x, y)
-        if length(x - before_x, y - before_y) < CLOSE * (lean.to_main + lean.to_auxiliary):
+        px, py, qx, qy = mesh.x[p], mesh.y[p], mesh.x[q], mesh.y[q]
+        px, py, qx, qy = px * scale_x, py * scale_y, qx * scale_x, qy * scale_y
+        mx, my = (px + qx) / 2.0, (py + qy) / 2.0
+        if length(mx - middle_x, my - middle_y) < CLOSE_SIDES * wide:
+            continue
+        x, y, wide = level_between(banks, px, py, qx, qy, 0.5)
+        middle_x, middle_y = mx, my
+        if length(x - before_x, y - before_y) < CLOSE * wide:
             continue
         before_x, before_y, n = x, y, n + 1
         point[n, 0], point[n, 1], at[n] = x / scale_x, y / scale_y, -1 - e // 3
