@@ -24,7 +24,7 @@ def river() -> Polygon:
     islands = [
         ellipse(34.0, 12.5, 12.0, 3.0, 10.0),
         ellipse(80.0, -1.5, 10.0, 2.4, -28.0),
-        ellipse(88.0, 9.5, 7.0, 2.0, -28.0),
+        ellipse(88.0, 7.0, 7.0, 2.0, -28.0),
         ellipse(150.0, -11.5, 14.0, 4.0, 4.0),
     ]
     return Polygon(area.exterior, [island.exterior for island in islands])
