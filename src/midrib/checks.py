@@ -1,13 +1,14 @@
 """What options are made of, and how a value looks in a message."""
 
 import sys
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
-from midrib.errors import ParameterError
+from midrib.errors import MissingDependencyError, ParameterError
 
-__all__ = ["check_flag", "is_number", "shown"]
+__all__ = ["check_flag", "check_library", "is_number", "shown"]
 
 LONGEST = 60  # characters of a value in a message
 
@@ -33,6 +34,19 @@ def check_flag(value: Any, name: str) -> None:
     if not isinstance(value, bool | np.bool_):
         msg = f"{name} is {shown(value)}, expected True or False"
         raise ParameterError(msg)
+
+
+def check_library(name: str, what: str, extra: str) -> None:
+    """Refuse what needs a library of an extra that is not installed.
+
+    Raises
+    ------
+    MissingDependencyError
+        If so.
+    """
+    if find_spec(name) is None:
+        msg = f"{what} needs {name}: pip install midrib[{extra}]"
+        raise MissingDependencyError(msg)
 
 
 def shown(value: Any) -> str:

@@ -189,7 +189,7 @@ def test_bugs_leave_their_traceback_in_a_file(
 def test_figures_without_matplotlib_name_the_command_to_install_it(
     midrib: Runner, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("midrib.figures.draw.find_spec", lambda _: None)
+    monkeypatch.setattr("midrib.checks.find_spec", lambda _: None)
     outcome = midrib("collapse", "in.gpkg", "out.gpkg", "--figure", "new.svg")
     assert outcome.code == 2
     assert "needs matplotlib: pip install midrib[figures]" in outcome.err

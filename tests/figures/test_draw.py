@@ -147,7 +147,7 @@ def test_other_endings_are_refused() -> None:
 
 
 def test_missing_matplotlib_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("midrib.figures.draw.find_spec", lambda _: None)
+    monkeypatch.setattr("midrib.checks.find_spec", lambda _: None)
     with pytest.raises(MissingDependencyError, match=r"pip install midrib\[figures\]"):
         check_figure(Path("a.svg"))
 

@@ -138,7 +138,7 @@ def test_layers_that_are_missing_are_named(tmp_path: Path) -> None:
 
 def test_the_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = drawing(tmp_path / "a.dxf")
-    monkeypatch.setattr("midrib.formats.cad.find_spec", lambda _: None)
+    monkeypatch.setattr("midrib.checks.find_spec", lambda _: None)
     with pytest.raises(MissingDependencyError, match=r"pip install midrib\[dxf\]"):
         read_slopes(path)
 

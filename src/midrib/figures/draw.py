@@ -5,7 +5,6 @@ only its line is drawn, and radii are thinned out where they would run together.
 """
 
 from dataclasses import dataclass, field
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,8 +12,9 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiPolygon, Polygon
 
+from midrib.checks import check_library
 from midrib.curves.collapse import as_array, check_connect
-from midrib.errors import MissingDependencyError, ParameterError
+from midrib.errors import ParameterError
 from midrib.figures.curves import Sketch, curves_of
 from midrib.figures.paper import Paper, sheet_for
 
@@ -163,6 +163,4 @@ def check_figure(path: Path) -> None:
     if path.suffix.lower() not in ENDINGS:
         msg = f"--figure {str(path)!r} ends in {path.suffix!r}, expected {', '.join(ENDINGS)}"
         raise ParameterError(msg)
-    if find_spec("matplotlib") is None:
-        msg = "a figure needs matplotlib: pip install midrib[figures]"
-        raise MissingDependencyError(msg)
+    check_library("matplotlib", "a figure", "figures")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 import shapely
 
-from midrib.errors import MissingDependencyError
+from midrib.checks import check_library
 from midrib.geodesy import lengths_at
 
 if TYPE_CHECKING:
@@ -141,11 +141,9 @@ def sheet_for(areas: "Geometries", geographic: bool, longest: float) -> Paper:
     MissingDependencyError
         If matplotlib is not installed.
     """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        msg = "a figure needs matplotlib: pip install midrib[figures]"
-        raise MissingDependencyError(msg) from None
+    check_library("matplotlib", "a figure", "figures")
+    from matplotlib.figure import Figure
+
     bounds = shapely.total_bounds([*areas, None])  # NaN where there is nothing
     low, high = (bounds[:2], bounds[2:]) if np.isfinite(bounds).all() else (np.zeros(2), np.ones(2))
     unit = np.ones(2)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from midrib.errors import MissingDependencyError
+from midrib.checks import check_library
 from midrib.figures.paper import FONT, INCH, POINT, TEXT, save
 
 if TYPE_CHECKING:
@@ -65,11 +65,9 @@ def draw_profiles(
     MissingDependencyError
         If matplotlib is not installed.
     """
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        msg = "a figure needs matplotlib: pip install midrib[figures]"
-        raise MissingDependencyError(msg) from None
+    check_library("matplotlib", "a figure", "figures")
+    from matplotlib.figure import Figure
+
     drawn = list(panels)[:MOST_PANELS]
     n_columns = 2 if len(drawn) >= TWO_COLUMNS else 1
     n_rows = max(1, -(-len(drawn) // n_columns))

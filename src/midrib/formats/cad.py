@@ -6,14 +6,14 @@ joined; blocks are not looked into. A drawing has no coordinate reference system
 
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from shapely import LineString
 
-from midrib.errors import MissingDependencyError, ParameterError
+from midrib.checks import check_library
+from midrib.errors import ParameterError
 from midrib.formats.gathering import Gathered
 from midrib.formats.pairs import add_pairs, joined
 from midrib.formats.reading import listed
@@ -77,9 +77,7 @@ def opened(path: Path) -> "Drawing":
     ParameterError
         If the file is no drawing.
     """
-    if find_spec("ezdxf") is None:
-        msg = "a drawing needs ezdxf: pip install midrib[dxf]"
-        raise MissingDependencyError(msg)
+    check_library("ezdxf", "a drawing", "dxf")
     import ezdxf
 
     try:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import shapely
 
-from midrib.errors import MissingDependencyError
+from midrib.checks import check_library
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from midrib.hatching.drawn import Figure
     from midrib.hatching.standards import Standard
 
-__all__ = ["check_dxf", "write_dxf"]
+__all__ = ["write_dxf"]
 
 VERSION = "R2010"
 APPLICATION = "MIDRIB"
@@ -34,24 +34,9 @@ DASHES = ("DASHEDTINY", "DASHED2", "DASHED")  # LibreCAD draws no line types by 
 STRING, INTEGER = 1000, 1071  # group codes of extended data
 
 
-def check_dxf() -> None:
-    """Refuse to write DXF without the library for it.
-
-    Raises
-    ------
-    MissingDependencyError
-        If ezdxf is not installed.
-    """
-    from importlib.util import find_spec
-
-    if find_spec("ezdxf") is None:
-        msg = "writing DXF needs ezdxf: pip install midrib[dxf]"
-        raise MissingDependencyError(msg)
-
-
 def write_dxf(path: "Path", drawing: "Drawing") -> None:
     """Write a drawing as DXF."""
-    check_dxf()
+    check_library("ezdxf", "writing DXF", "dxf")
     from ezdxf.filemanagement import new
 
     document = new(VERSION)

@@ -9,13 +9,13 @@ A map that is larger than its paper takes several pages of a PDF.
 +-------------------+
 """
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import shapely
 
-from midrib.errors import MissingDependencyError, ParameterError
+from midrib.checks import check_library
+from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.content import Drawing
     from midrib.types import Floats
 
-__all__ = ["PAPERS", "check_sheet", "write_sheet"]
+__all__ = ["PAPERS", "write_sheet"]
 
 INCH, POINT = 25.4, 25.4 / 72.0  # millimetres
 MARGIN, FOOTER = 5.0, 10.0
@@ -57,19 +57,6 @@ class Page(NamedTuple):
     is_alone: bool
 
 
-def check_sheet() -> None:
-    """Refuse to draw a sheet without the library for it.
-
-    Raises
-    ------
-    MissingDependencyError
-        If matplotlib is not installed.
-    """
-    if find_spec("matplotlib") is None:
-        msg = "a sheet needs matplotlib: pip install midrib[figures]"
-        raise MissingDependencyError(msg)
-
-
 def write_sheet(path: "Path", drawing: "Drawing", paper: str | None = None) -> list[str]:
     """Write a drawing as a sheet as large as it needs to be, or on pages of paper of ISO 216.
 
@@ -83,7 +70,7 @@ def write_sheet(path: "Path", drawing: "Drawing", paper: str | None = None) -> l
     ParameterError
         If the drawing does not fit, or there is no such paper.
     """
-    check_sheet()
+    check_library("matplotlib", "a sheet", "figures")
     from matplotlib import rc_context
     from matplotlib.backends.backend_pdf import PdfPages
 

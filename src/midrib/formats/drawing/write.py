@@ -3,12 +3,13 @@
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from midrib.checks import check_library
 from midrib.errors import ParameterError
-from midrib.formats.drawing.cad import check_dxf, write_dxf
+from midrib.formats.drawing.cad import write_dxf
 from midrib.formats.drawing.cartographic import write_cartographic
 from midrib.formats.drawing.content import AREAS, EDGES, LINES, PROBLEMS, Drawing, layers_of
 from midrib.formats.drawing.qgis import add_styles
-from midrib.formats.drawing.sheet import PAPERS, check_sheet, write_sheet
+from midrib.formats.drawing.sheet import PAPERS, write_sheet
 from midrib.formats.endings import format_of
 from midrib.formats.reading import column_names
 from midrib.formats.writing import check_free, staged, write_layer
@@ -71,9 +72,9 @@ def check_places(
             )
             raise ParameterError(msg)
     if path.suffix.lower() in SHEETS:
-        check_sheet()
+        check_library("matplotlib", "a sheet", "figures")
     elif path.suffix.lower() == CAD:
-        check_dxf()
+        check_library("ezdxf", "writing DXF", "dxf")
     if paper is not None and (paper not in PAPERS or path.suffix.lower() not in SHEETS):
         msg = f"paper is {paper!r}, expected {', '.join(PAPERS)}, with OUT {' or '.join(SHEETS)}"
         raise ParameterError(msg)
