@@ -17,7 +17,7 @@ from midrib.ragged import area_of_one, place_text, rings_of_area
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["PLANE", "Position", "Strip", "divide", "pair_of", "split"]
+__all__ = ["PLANE", "Position", "Strip", "check_strip", "divide", "pair_of", "split"]
 
 Position: TypeAlias = "shapely.Point | tuple[float, float]"
 PLANE: Scale = (1.0, 1.0)
@@ -200,6 +200,20 @@ def split(
     area = area_of_one(area, "area")
     layout = divide(*rings_of_area(area), PLANE, along=along, start=start, end=end)
     return Strip._of_layout(layout, area)
+
+
+def check_strip(strip: object) -> None:
+    """Refuse what is no strip.
+
+    Raises
+    ------
+    GeometryTypeError
+        If so.
+    """
+    if not isinstance(strip, Strip):
+        kind = getattr(strip, "geom_type", type(strip).__name__)
+        msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
+        raise GeometryTypeError(msg)
 
 
 def divide(

@@ -12,9 +12,8 @@ from midrib.curves.construction import Centring, Construction, Holes
 from midrib.curves.joining import Channel, EndRule
 from midrib.curves.radii import EndClearance, jumps_of
 from midrib.curves.stations import Skip
-from midrib.errors import GeometryTypeError
 from midrib.ragged import without_holes
-from midrib.strip import Strip
+from midrib.strip import Strip, check_strip
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -238,10 +237,7 @@ def minimal_radii(
     >>> curve.radii
     array([2., 2., 2., 2.])
     """
-    if not isinstance(strip, Strip):
-        kind = getattr(strip, "geom_type", type(strip).__name__)
-        msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
-        raise GeometryTypeError(msg)
+    check_strip(strip)
     construction = Construction(
         spacing=spacing,
         count=count,

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from midrib.checks import check_flag, is_number, shown
-from midrib.errors import GeometryTypeError, ParameterError
+from midrib.errors import ParameterError
 from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
 from midrib.hatching.matching import Drawn, Ground, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
 from midrib.hatching.rule import LEAST_LENGTH, MILLIMETRES, Rule, rule_of
-from midrib.strip import Strip
+from midrib.strip import Strip, check_strip
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -188,10 +188,7 @@ def hatch(
     >>> shapely.length(hatching.strokes).round(6)
     array([4., 2., 4., 2., 4.])
     """
-    if not isinstance(strip, Strip):
-        kind = getattr(strip, "geom_type", type(strip).__name__)
-        msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
-        raise GeometryTypeError(msg)
+    check_strip(strip)
     ground = rule_of(
         standard, scale, metres_per_unit, factor=factor, spacing=spacing, min_spacing=min_spacing,
         max_spacing=max_spacing, pattern=pattern, short_ratio=short_ratio,

@@ -26,7 +26,7 @@ from midrib.kernels.boxtree import DEPTH, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.clearance import nearest_of
 from midrib.kernels.heap import pop, push
-from midrib.kernels.islands import Loops, distance_to_side, loops_of, side_length
+from midrib.kernels.islands import AUXILIARY, MAIN, Loops, distance_to_side, loops_of, side_length
 from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, string_beads
 from midrib.kernels.landings import land, take_off
@@ -34,7 +34,7 @@ from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.trunk import APART, SHARE_OF_SLACK, ends_of, trace
-from midrib.kernels.ways import AUXILIARY, MAIN, Stops, level_beads, shores_outside, stops_on_way
+from midrib.kernels.ways import Stops, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
 __all__ = ["trace_wider", "with_islands"]

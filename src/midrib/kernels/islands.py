@@ -29,9 +29,19 @@ from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import squared_distance_to_side
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Loops", "distance_to_side", "has_islands", "loops_of", "no_loops", "side_length"]
+__all__ = [
+    "AUXILIARY",
+    "MAIN",
+    "Loops",
+    "distance_to_side",
+    "has_islands",
+    "loops_of",
+    "no_loops",
+    "owners",
+    "side_length",
+]
 
-NOBODY, MAIN, AUXILIARY = 0, 1, 2
+MAIN, AUXILIARY, NOBODY = 0, 1, 2  # whose sides are
 HALF = 0.5
 SAME = 2.0**-20  # of a side: a middle that is no farther from its end than this is its end
 INTO = 2.0**-10  # of a side: how far inside its corner an island is looked at
@@ -74,6 +84,18 @@ def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
 
 
 @njit()
+def owners(mesh: Mesh, main: Chain, auxiliary: Chain) -> Ints:
+    """Return MAIN or AUXILIARY for each side of the mesh that is a curve's, -1 for the others."""
+    owner = np.full(mesh.tri.size, -1, np.intp)
+    for e in main.side:
+        owner[e] = MAIN
+    for e in auxiliary.side:
+        if e >= 0:
+            owner[e] = AUXILIARY
+    return owner
+
+
+@njit()
 def loops_of(
     mesh: Mesh, main: Chain, auxiliary: Chain, path: Floats, scale_x: float, scale_y: float
 ) -> Loops:
@@ -81,12 +103,7 @@ def loops_of(
 
     O(n log n) for islands that are small against the area.
     """
-    owner = np.full(mesh.tri.size, -1, np.int8)
-    for e in main.side:
-        owner[e] = MAIN
-    for e in auxiliary.side:
-        if e >= 0:
-            owner[e] = AUXILIARY
+    owner = owners(mesh, main, auxiliary)
     side, start = np.empty(mesh.tri.size, np.intp), np.zeros(mesh.tri.size, np.intp)
     is_main = np.empty(mesh.tri.size, np.bool_)
     count, loops = 0, 0
@@ -100,7 +117,7 @@ def loops_of(
     while True:
         e = next_boundary_side(mesh, e)
         is_inner[e] = False
-        if owner[e] > 0:
+        if owner[e] == MAIN or owner[e] == AUXILIARY:
             if owner[e] != last:
                 caps, run = caps + 1, count - start[loops]
                 cap_start[caps] = cap_start[caps - 1] + run

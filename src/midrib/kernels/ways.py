@@ -13,7 +13,7 @@ import numpy as np
 
 from midrib.kernels.banks import Banks, level_between
 from midrib.kernels.chain import Chain
-from midrib.kernels.islands import Loops, side_length
+from midrib.kernels.islands import AUXILIARY, MAIN, Loops, owners, side_length
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, next_boundary_side
@@ -22,8 +22,6 @@ from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Bools, Floats, Ints
 
 __all__ = [
-    "AUXILIARY",
-    "MAIN",
     "Stops",
     "is_of_main",
     "level_beads",
@@ -31,7 +29,6 @@ __all__ = [
     "stops_on_way",
 ]
 
-MAIN, AUXILIARY = 0, 1
 CLOSE = 0.5  # widths: stops nearer to each other than that are as good as one
 CLOSE_SIDES = 0.25  # the same, for middles of sides: the stop may be where their end is
 
@@ -77,12 +74,7 @@ def shores_outside(
 
     Of what lies between the two curves, half is the one's and half the other's.
     """
-    owner = np.full(mesh.tri.size, -1, np.int8)
-    for e in main.side:
-        owner[e] = MAIN
-    for e in auxiliary.side:
-        if e >= 0:
-            owner[e] = AUXILIARY
+    owner = owners(mesh, main, auxiliary)
     shore = np.full(mesh.x.size, -1, np.intp)
     first = e = main.side[0]
     last, run = MAIN, np.empty(mesh.tri.size, np.intp)

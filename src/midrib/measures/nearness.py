@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.checks import is_number, shown
-from midrib.errors import GeometryTypeError, ParameterError
+from midrib.errors import ParameterError
 from midrib.kernels.frechet import frechet_distances
 from midrib.measures.chains import (
     Chains,
@@ -26,7 +26,7 @@ from midrib.measures.chains import (
     vertices,
 )
 from midrib.measures.widths import mean_width
-from midrib.strip import Strip
+from midrib.strip import Strip, check_strip
 
 if TYPE_CHECKING:
     from midrib.types import Floats, Ints
@@ -103,10 +103,7 @@ def centredness(line: Any, strip: Strip, *, spacing: float | None = None) -> "Fl
     array([0. , 0.5, 1. ])
     """
     lines = one(lines_of(line, "line"), "line")
-    if not isinstance(strip, Strip):
-        kind = getattr(strip, "geom_type", type(strip).__name__)
-        msg = f"strip is a {kind}, expected a Strip; midrib.split makes one of an area"
-        raise GeometryTypeError(msg)
+    check_strip(strip)
     check_spacing(spacing)
     chains = vertices(lines)
     points = chains.points if spacing is None else places(chains, spacing)
