@@ -31,7 +31,7 @@ def faulty(tmp_path: Path) -> Path:
 def test_nothing_found_is_code_0(midrib: Runner, tmp_path: Path) -> None:
     outcome = midrib("check", collection(tmp_path / "in.gml", BDOT_2015, GOOD))
     assert (outcome.code, outcome.out) == (0, "")
-    assert "1 slopes, 0 findings" in outcome.err
+    assert "slopes: 1; findings: 0" in outcome.err
 
 
 def test_findings_are_a_table_and_code_1(midrib: Runner, faulty: Path) -> None:
@@ -42,7 +42,7 @@ def test_findings_are_a_table_and_code_1(midrib: Runner, faulty: Path) -> None:
     assert lines[2][:2] == ["topless", "refused"]
     assert lines[3][:4] == ["doubtful", "orientation", "6481004.000", "5616000.000"]
     assert "start is no vertex of the boundary" in outcome.out
-    assert "2 findings: 1 refused, 1 orientation" in midrib("check", faulty).err
+    assert "findings: 2, 1 refused, 1 orientation" in midrib("check", faulty).err
 
 
 @pytest.mark.parametrize("ending", ["csv", "geojson", "gpkg", "parquet", "shp"])

@@ -166,6 +166,14 @@ def test_editing_refuses_what_cannot_be() -> None:
         add_stroke(hatch(rectangle(), rule="paper"), (6.0, 3.0))
 
 
+def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
+    hatching = hatch(rectangle(), spacing=1e6, min_length=0.0)
+    assert hatching.strokes.size == 0
+    assert [problem.reason for problem in hatching.problems] == [
+        "the slope is shorter than a gap, 5e+05 at least; none is drawn"
+    ]
+
+
 # -- refusals --------------------------------------------------------------------------------------
 
 
@@ -180,6 +188,8 @@ def test_editing_refuses_what_cannot_be() -> None:
         ({"min_spacing": 0}, "min_spacing is 0"),
         ({"factor": 1.0, "spacing": 1.0}, "factor is 1.0 and spacing 1.0"),
         ({"min_length": -1}, "min_length is -1"),
+        ({"max_spacing": 0.5}, "max_spacing is 0.5, expected min_spacing, 0.72, or more"),
+        ({"standard": "pl-2015-conveyor"}, "'pl-2015-conveyor', which draws circles, expected one"),
         ({"pattern": "SS"}, "pattern is 'SS'"),
         ({"pattern": "LX"}, "pattern is 'LX'"),
         ({"short_ratio": 0.01}, r"short_ratio is 0.01, expected 0.05 to 0.95"),

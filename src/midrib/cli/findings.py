@@ -83,7 +83,7 @@ class Places(NamedTuple):
                 )
         for note in notes:
             report.say(f"note: {note}")
-        report.say(f"{len(slopes)} slopes, {summary(findings)}")
+        report.say(f"slopes: {len(slopes)}; {summary(findings)}")
         for path in (self.out, self.figure):
             if path is not None:
                 report.say(f"written to {path}")
@@ -132,7 +132,7 @@ def summary(findings: Sequence[Finding]) -> str:
     """Count findings by check."""
     counts = Counter(finding.check for finding in findings)
     told = ", ".join(f"{count} {check}" for check, count in counts.items())
-    return f"{len(findings)} findings" + f": {told}" * bool(told)
+    return f"findings: {len(findings)}" + f", {told}" * bool(told)
 
 
 def metres_per_unit(slopes: "Sequence[Slope]") -> float:

@@ -48,6 +48,9 @@ def finish(
     The pattern counts the strokes that have a place, whether a zone hides them or not.
     """
     problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
+    if not drawn.kept.size:
+        reason = f"the slope is shorter than a gap, {rule.least_gap:.3g} at least; none is drawn"
+        problems.append(Problem(strip.main.interpolate(0.5, normalized=True), reason))
     width = np.hypot(*(drawn.on_toe - drawn.on_top).T)
     kept = drawn.kept & (width >= least)
     if drawn.kept.any() and not kept.any():

@@ -7,6 +7,7 @@ import numpy as np
 
 from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
+from midrib.hatching.keys import STROKED
 from midrib.hatching.standards import standard as standard_named
 
 if TYPE_CHECKING:
@@ -67,6 +68,12 @@ def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -
     check_positive(metres_per_unit, "metres_per_unit")
     ground = float(scale) / MILLIMETRES / float(metres_per_unit)
     at_scale = standard_named(standard).at(scale)
+    if at_scale.symbol not in STROKED:
+        msg = (
+            f"standard is {at_scale.name!r}, which draws {at_scale.symbol}, expected one that "
+            "draws strokes; midrib.draw_slopes draws every kind"
+        )
+        raise ParameterError(msg)
     values: dict[str, Any] = {name: getattr(at_scale, name) for name in VALUES}
     given = {name: value for name, value in overrides.items() if value is not None}
     for name, other in (("factor", "spacing"), ("spacing", "factor")):
@@ -100,6 +107,10 @@ def check_gaps(values: dict[str, Any]) -> None:
         value = values[name]
         if value is not None and not (name == "min_spacing" and factor is None and value == 0.0):
             check_positive(value, name)
+    least, most = values["min_spacing"], values["max_spacing"]
+    if factor is not None and most is not None and most < least:
+        msg = f"max_spacing is {shown(most)}, expected min_spacing, {shown(least)}, or more"
+        raise ParameterError(msg)
 
 
 def check_positive(value: Any, name: str) -> None:
