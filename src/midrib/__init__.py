@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
+    from midrib.curves.skeletons import Skeleton, skeleton
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.drawing.slopes import draw_slopes
     from midrib.formats.drawing.write import write_drawing
@@ -29,6 +30,7 @@ __all__ = [
     "Joint",
     "Problem",
     "Profile",
+    "Skeleton",
     "Slope",
     "SpaceCurve",
     "Standard",
@@ -44,6 +46,7 @@ __all__ = [
     "minimal_radii_3d",
     "profile",
     "read_slopes",
+    "skeleton",
     "split",
     "standard",
     "standards",
@@ -57,6 +60,7 @@ HOME = {
     "Joint": "midrib.curves.collapse",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
+    "Skeleton": "midrib.curves.skeletons",
     "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
     "Standard": "midrib.hatching.standards",
@@ -71,6 +75,7 @@ HOME = {
     "minimal_radii_3d": "midrib.curves.space",
     "profile": "midrib.profiles",
     "read_slopes": "midrib.formats.slopes",
+    "skeleton": "midrib.curves.skeletons",
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",

@@ -14,7 +14,8 @@ from midrib import interrupts
 from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
-from midrib.curves.methods import Finder, Found, finder_of
+from midrib.curves.finding import Finder, Found
+from midrib.curves.methods import finder_of
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,

@@ -1,10 +1,13 @@
 """The methods that collapse areas, in one registry."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN, Construction
+from midrib.curves.finding import Finder, Found, made
+from midrib.curves.skeletons import trunk_finder
 from midrib.errors import ParameterError
 from midrib.kernels.collapsing import collapse_rings
 from midrib.layout import Scale
@@ -19,31 +22,7 @@ if TYPE_CHECKING:
     from midrib.ends import End
     from midrib.types import Floats, Ints
 
-__all__ = ["Finder", "Found", "Method", "construction_of_collapse", "finder_of", "methods"]
-
-
-class Found(NamedTuple):
-    """A line as arrays: points, Z of each or None; loops cut, stations left out as bays, others."""
-
-    points: "Floats"
-    height: "Floats | None"
-    loops: int
-    bays: int = 0
-    stations: int = 0
-
-
-class Finder(Protocol):
-    """Finds the line of one area."""
-
-    def __call__(
-        self,
-        coordinates: "Floats",
-        offsets: "Ints",
-        along: "LineString | None",
-        scale: Scale,
-        joints: "tuple[End, End] | None" = None,
-    ) -> Found:
-        """Return the line; ``joints`` are the ends it is to have, if they are given."""
+__all__ = ["Method", "construction_of_collapse", "finder_of", "methods"]
 
 
 @dataclass(frozen=True)
@@ -52,6 +31,7 @@ class Method:
 
     name: str
     source: str
+    has_branches: bool  # a skeleton, of which collapse returns the trunk
     supports_holes: bool
     is_exact: bool
     cost: str
@@ -78,7 +58,7 @@ def construction_of_collapse(**options: Any) -> Construction:
     return Construction(**(usual | options))
 
 
-def minimal_radii_finder(**options: Any) -> "Finder":
+def minimal_radii_finder(**options: Any) -> Finder:
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
     plain = {"ends": construction.ends, "end_clearance": construction.end_clearance}
@@ -107,16 +87,52 @@ def minimal_radii_finder(**options: Any) -> "Finder":
     return find
 
 
+def mean_curve_finder(**options: Any) -> Finder:
+    """Rhino's mean curve: middles between points of the same share of either curve's length."""
+    for name in {"centring", "mean", "tolerance"} & options.keys():
+        msg = f"method 'mean-curve' has no option {name!r}"
+        raise ParameterError(msg)
+    return minimal_radii_finder(centring="symmetric", mean="proportional", **options)
+
+
 METHODS = {
     method.name: method
     for method in (
         Method(
             name="minimal-radii",
             source="Buczek 2017",
+            has_branches=False,
             supports_holes=True,
             is_exact=False,
             cost="n log n",
             finder=minimal_radii_finder,
+        ),
+        Method(
+            name="mean-curve",
+            source="Buczek 2017, section 7",
+            has_branches=False,
+            supports_holes=True,
+            is_exact=False,
+            cost="n log n",
+            finder=mean_curve_finder,
+        ),
+        Method(
+            name="chordal-axis",
+            source="Bader and Weibel 1997",
+            has_branches=True,
+            supports_holes=True,
+            is_exact=True,
+            cost="n log n",
+            finder=partial(trunk_finder, "chordal-axis"),
+        ),
+        Method(
+            name="point-voronoi",
+            source="Brandt and Algazi 1992",
+            has_branches=True,
+            supports_holes=True,
+            is_exact=False,
+            cost="m log m, for m points",
+            finder=partial(trunk_finder, "point-voronoi"),
         ),
     )
 }
@@ -127,13 +143,13 @@ def methods() -> list[Method]:
 
     Examples
     --------
-    >>> [method.name for method in methods()]
-    ['minimal-radii']
+    >>> [method.name for method in methods() if method.has_branches]
+    ['chordal-axis', 'point-voronoi']
     """
     return list(METHODS.values())
 
 
-def finder_of(name: str, **options: Any) -> "Finder":
+def finder_of(name: str, **options: Any) -> Finder:
     """Return the finder of a method, with its options checked.
 
     Raises
@@ -144,9 +160,4 @@ def finder_of(name: str, **options: Any) -> "Finder":
     if not isinstance(name, str) or name not in METHODS:
         msg = f"method is {shown(name)}, expected {' or '.join(repr(known) for known in METHODS)}"
         raise ParameterError(msg)
-    try:
-        return METHODS[name].finder(**options)
-    except TypeError as error:
-        found = str(error).partition("keyword argument ")[2] or str(error)
-        msg = f"method {name!r} has no option {found}"
-        raise ParameterError(msg) from error
+    return made(METHODS[name].finder, name, options)

@@ -10,7 +10,8 @@ from shapely import LineString
 
 from midrib.curves.aftercare import aftercare
 from midrib.curves.collapse import Joint, Log, filled_parts, lines_of_parts, valid_parts
-from midrib.curves.methods import Found, construction_of_collapse
+from midrib.curves.finding import Found
+from midrib.curves.methods import construction_of_collapse
 from midrib.ragged import normalised
 from midrib.strip import divide
 
