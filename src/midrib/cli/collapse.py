@@ -5,7 +5,7 @@ from typing import Any
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import Centring, Channel, EndRule, Holes, WidthPlace
+from midrib.cli.options import Centring, Channel, EndRule, Holes, WidthPlace, chosen
 from midrib.errors import ParameterError
 
 __all__ = ["collapse"]
@@ -65,8 +65,7 @@ def collapse(
             "simplify": simplify and deviation(simplify, features.crs, "--simplify"),
         }
         options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
-        options |= {"centring": centring.value, "holes": holes.value, "channel": channel.value}
-        options["ends"] = None if ends is EndRule.none else ends.value
+        options |= chosen(centring=centring, holes=holes, channel=channel, ends=ends)
         if end_clearance is not None:
             options["end_clearance"] = clearance(end_clearance, features.crs)
         check_options(method, options)
@@ -76,7 +75,7 @@ def collapse(
     places.write(results, out_layer or layer, report)
     if figure is not None:
         with open_layer(source, layer) as features:
-            draw(features, guides, options | {"connect": connect}, figure)
+            draw(features, guides, options | {"method": method, "connect": connect}, figure)
     if results.n_refused:
         raise typer.Exit(1)
 

@@ -81,6 +81,7 @@ __all__ = [
     "Vertices",
     "Width",
     "WidthPlace",
+    "chosen",
 ]
 
 
@@ -122,6 +123,20 @@ class Channel(StrEnum):
 
     shorter = "shorter"
     wider = "wider"
+
+
+USUAL: dict[str, StrEnum] = {
+    "centring": Centring.centred,
+    "holes": Holes.blocked,
+    "channel": Channel.shorter,
+    "ends": EndRule.caps,
+}
+
+
+def chosen(**values: StrEnum) -> dict[str, str | None]:
+    """Options of ``collapse`` that are not the usual ones, which some methods do not have."""
+    found = {name: value for name, value in values.items() if value is not USUAL[name]}
+    return {name: None if value is EndRule.none else value.value for name, value in found.items()}
 
 
 class WidthPlace(StrEnum):

@@ -3,7 +3,7 @@
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import Channel, Holes
+from midrib.cli.options import Channel, Holes, chosen
 
 __all__ = ["profile"]
 
@@ -38,7 +38,7 @@ def profile(
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        options = {"holes": holes.value, "channel": channel.value}
+        options = chosen(holes=holes, channel=channel)
         check_options(method, options)
         check_field(identifier, features)
         interval = None if spacing is None else length_in(spacing, features.crs, "--spacing")

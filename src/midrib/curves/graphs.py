@@ -138,7 +138,7 @@ def trunk_of(graph: Graph, layout: Layout) -> Found:
     first, last = (last_before(graph, end, scale) for end in ends.point)
     way = shortest_way(graph.points, graph.edges, first, last, *scale)
     if way.size == 0:
-        msg = "the skeleton is in pieces between the two ends, expected one"
+        msg = "the skeleton is in pieces between the two ends; a smaller spacing may join them"
         raise InvalidAreaError(msg)
     inner = graph.points[way]
     rows = np.array([0] * (len(inner) + 1) + [1])  # whose search each point's begins with

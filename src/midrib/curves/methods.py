@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from midrib.ends import End
     from midrib.types import Floats, Ints
 
-__all__ = ["Method", "construction_of_collapse", "finder_of", "methods"]
+__all__ = ["OF_METHOD", "Method", "construction_of_collapse", "finder_of", "methods"]
 
 
 @dataclass(frozen=True)
@@ -87,12 +87,18 @@ def minimal_radii_finder(**options: Any) -> Finder:
     return find
 
 
+# What makes other methods of the construction.
+OF_METHOD: dict[str, dict[str, Any]] = {
+    "mean-curve": {"centring": "symmetric", "mean": "proportional"}
+}
+
+
 def mean_curve_finder(**options: Any) -> Finder:
     """Rhino's mean curve: middles between points of the same share of either curve's length."""
-    for name in {"centring", "mean", "tolerance"} & options.keys():
+    for name in sorted({"centring", "mean", "tolerance"} & options.keys()):
         msg = f"method 'mean-curve' has no option {name!r}"
         raise ParameterError(msg)
-    return minimal_radii_finder(centring="symmetric", mean="proportional", **options)
+    return minimal_radii_finder(**OF_METHOD["mean-curve"], **options)
 
 
 METHODS = {

@@ -120,7 +120,7 @@ def skeleton(
     --------
     >>> found = skeleton(box(0, 0, 9, 2), min_significance=1.5)
     >>> found.trunk.wkt
-    'LINESTRING (0 1, 9 1)'
+    'LINESTRING (0 1, 4.5 1, 9 1)'
     """
     axis = axis_of(method)
     least = {"min_branch_length": min_branch_length, "min_significance": min_significance}

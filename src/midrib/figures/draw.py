@@ -45,6 +45,7 @@ class Strokes:
     main: "list[Floats]" = field(default_factory=list)
     auxiliary: "list[Floats]" = field(default_factory=list)
     radii: "list[Floats]" = field(default_factory=list)
+    branches: "list[Floats]" = field(default_factory=list)
     line: "list[Floats]" = field(default_factory=list)
     widths: list[float] = field(default_factory=list)  # of the areas the lines are in, on paper
 
@@ -59,9 +60,10 @@ def draw_collapse(
     width: float = 240.0,
     **options: Any,
 ) -> "Figure":
-    """Draw areas with their main and auxiliary curves, radii and the curve of minimal radii.
+    """Draw areas with their main and auxiliary curves, radii and lines.
 
-    Where lines are connected, joints are dots.
+    Of methods that have branches, all of them are drawn. Where lines are connected, joints are
+    dots.
 
     Parameters
     ----------
@@ -79,7 +81,7 @@ def draw_collapse(
     width : float, default 240
         Width of the sheet in millimetres, or its height where the areas extend further in y.
     **options
-        Those of ``midrib.collapse``, ``connect`` among them.
+        Those of ``midrib.collapse``, ``method`` and ``connect`` among them.
 
     Returns
     -------
@@ -106,6 +108,7 @@ def draw_collapse(
     paper.fill(areas[drawn], FILL, OUTLINE, "area")
     paper.fill(areas[~drawn], REFUSED, OUTLINE, "refused")
     paper.stroke(strokes.radii, RADIUS, 0.12, "radii")
+    paper.stroke(strokes.branches, RADIUS, 0.12, "branches")
     paper.stroke(strokes.main, MAIN, 0.25, "main curve")
     paper.stroke(strokes.auxiliary, AUXILIARY, 0.25, "auxiliary curve")
     bold = np.clip(0.15 * np.array(strokes.widths), *LINE_WIDTH)
@@ -131,14 +134,14 @@ def drawable(features: "Geometries") -> "Geometries":
 def add_strokes(strokes: Strokes, sketch: Sketch, line: LineString, paper: Paper) -> None:
     """Add what of a sketch and its line can be told apart on paper."""
     strokes.line.append(shapely.get_coordinates(line))
-    across = paper.millimetres(sketch.radii[:, 1] - sketch.radii[:, 0])
-    across_middle = float(np.median(across))
+    across_middle = float(np.median(paper.millimetres(sketch.across)))
     strokes.widths.append(across_middle)
     if across_middle < TWO_SIDES:
         return
     strokes.main.append(sketch.main)
     strokes.auxiliary.append(sketch.auxiliary)
-    if across_middle >= RADII:
+    strokes.branches.extend(sketch.branches)
+    if across_middle >= RADII and len(sketch.radii):
         apart = paper.millimetres(np.diff(sketch.middles, axis=0))
         strokes.radii.extend(sketch.radii[spread(apart)])
 
