@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from midrib import measures
+    from midrib.comparison import Comparison, compare
     from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 __all__ = [
+    "Comparison",
     "Curve",
     "Finding",
     "Hatching",
@@ -38,6 +40,7 @@ __all__ = [
     "add_widths",
     "check_slopes",
     "collapse",
+    "compare",
     "draw_slopes",
     "hatch",
     "measures",
@@ -54,6 +57,7 @@ __all__ = [
 ]
 
 HOME = {
+    "Comparison": "midrib.comparison",
     "Curve": "midrib.curves.minimal_radii",
     "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
@@ -68,6 +72,7 @@ HOME = {
     "add_widths": "midrib.profiles",
     "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
+    "compare": "midrib.comparison",
     "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",
     "methods": "midrib.curves.methods",

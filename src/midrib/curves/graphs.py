@@ -20,7 +20,7 @@ from midrib.types import Floats, Ints
 __all__ = ["Branches", "Graph", "pruned", "radii_of", "trunk_of"]
 
 STAY = 1  # ways that a junction keeps when its branches are pruned: it may become a tip
-ALIKE = 1.05  # radii from an end: discs that are as good as the nearest one
+WAYS = 2  # of a point that is no tip
 
 
 class Graph(NamedTuple):
@@ -112,15 +112,15 @@ def doomed_of(
 
 
 def last_before(graph: Graph, end: Floats, scale: Scale) -> int:
-    """Row of the point at which the trunk leaves for an end.
+    """Row of the point at which the trunk leaves for an end: its disc reaches nearest to it.
 
-    In a wedge every disc is so many radii from the tip: of those the nearest one counts.
+    In a flat end that is the last disc that touches it, in a sharp one the tip itself. Other tips
+    are in corners beside the end.
     """
     away = np.hypot(*((graph.points - end) * scale).T)
-    radii = np.divide(away, graph.radius, out=np.full_like(away, np.inf), where=graph.radius > 0.0)
-    radii[away == 0.0] = 0.0
-    near = np.flatnonzero(radii <= ALIKE * radii.min())
-    return int(near[np.argmin(away[near])])
+    degree = np.bincount(graph.edges.ravel(), minlength=len(graph.points))
+    is_beside = (degree < WAYS) & (away > 0.0)
+    return int(np.argmin(np.where(is_beside & ~is_beside.all(), np.inf, away - graph.radius)))
 
 
 def trunk_of(graph: Graph, layout: Layout) -> Found:
