@@ -8,9 +8,11 @@ import shapely
 from shapely import LineString, Polygon
 
 from midrib.errors import MissingDependencyError, ParameterError
+from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.gathering import Gathered
 from midrib.formats.pairs import add_pairs, joined
 from midrib.formats.slopes import read_slopes
+from midrib.formats.units import unit_of
 
 ezdxf = pytest.importorskip("ezdxf")
 FOLDER = Path(__file__).parents[3] / "shared" / "data"
@@ -53,7 +55,7 @@ def test_the_crest_of_a_dyke_has_two_toes_and_a_ditch_two_tops() -> None:
 def test_closed_lines_go_together_and_bound_a_ring() -> None:
     hole, shell = (LineString(shapely.box(-r, -r, r, r).exterior.coords) for r in (1, 3))
     found = pairs([hole, level(20)], [level(22), shell])
-    mound = found.slopes[0]
+    mound = max(found.slopes, key=lambda slope: slope.area.area)
     assert mound.area.area == 32.0
     assert mound.top.is_closed
     (pit,) = pairs([shell], [hole]).slopes
@@ -72,6 +74,40 @@ def test_lines_without_a_partner_are_told() -> None:
     assert all(problem.where is not None for problem in found.problems)
     crossing = pairs([LineString([(0, 0), (9, 9)])], [LineString([(0, 1), (9, 8)])])
     assert [problem.kind for problem in crossing.problems] == ["refused"]
+
+
+def test_what_would_lie_on_another_slope_or_be_wider_than_long_is_no_slope() -> None:
+    """A toe is missing, near and far; and a toe is in two pieces with a gap between them."""
+    for height in (14.0, 1000.0):
+        found = pairs([level(0), level(height)], [level(-3)])
+        assert len(found.slopes) == 1
+        assert [problem.id for problem in found.problems] == ["top 2"]
+    far = pairs([level(0), LineString([(500, 0), (509, 0)])], [level(-3)])
+    assert [problem.id for problem in far.problems] == ["top 2"]
+    cut = pairs([level(0)], [LineString([(0, -3), (4, -3)]), LineString([(4.1, -3), (9, -3)])])
+    assert len(cut.slopes) == 1
+    assert len(cut.problems) == 1
+
+
+def test_edges_of_two_slopes_may_meet_in_a_corner() -> None:
+    tops = [LineString([(0, 4), (20, 4)]), LineString([(24, 0), (24, -20)])]
+    toes = [LineString([(0, 0), (20, 0)]), LineString([(20, 0), (20, -20)])]
+    found = pairs(tops, toes)
+    assert [slope.area.area for slope in found.slopes] == [80.0, 80.0]
+    assert found.problems == []
+
+
+@pytest.mark.parametrize(("code", "metres"), [(4, 0.001), (2, 0.3048), (6, 1.0)])
+def test_the_unit_of_a_drawing_is_known(code: int, metres: float, tmp_path: Path) -> None:
+    path = drawing(tmp_path / "a.dxf", "top", "toe")
+    document = ezdxf.readfile(path)
+    document.header["$INSUNITS"] = code
+    document.saveas(path)
+    (slope,), _ = read_slopes(path)
+    unit = unit_of(slope.crs)
+    assert unit is not None
+    assert unit.metres == pytest.approx(metres)
+    assert draw_slopes([slope]).metres_per_unit == pytest.approx(metres)
 
 
 def test_pieces_are_joined_whichever_way_they_run() -> None:

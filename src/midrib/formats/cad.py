@@ -1,9 +1,11 @@
 """Slopes of a DXF drawing: tops on some layers, toes on others.
 
 Lines, polylines, arcs, ellipses and splines of the model space are read, pieces that meet are
-joined; blocks are not looked into. A drawing has no coordinate reference system.
+joined; blocks are not looked into. A drawing has no coordinate reference system, but may say what
+its unit is.
 """
 
+import json
 from collections.abc import Iterator
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -15,7 +17,7 @@ from shapely import LineString
 from midrib.checks import check_library
 from midrib.errors import ParameterError
 from midrib.formats.gathering import Gathered
-from midrib.formats.pairs import add_pairs, joined
+from midrib.formats.pairs import add_pairs
 from midrib.formats.reading import listed
 from midrib.hatching.slope import Slope, SlopeProblem
 
@@ -48,9 +50,9 @@ def read_cad(
         If the file is no drawing, or has no such layers.
     """
     drawing, found = opened(path), Gathered()
-    tops = joined(lines_on(drawing, path, "top", (top,) if top else TOPS))
-    toes = joined(lines_on(drawing, path, "toe", (toe,) if toe else TOES))
-    add_pairs(found, tops, toes, path.stem)
+    tops = lines_on(drawing, path, "top", (top,) if top else TOPS)
+    toes = lines_on(drawing, path, "toe", (toe,) if toe else TOES)
+    add_pairs(found, tops, toes, path.stem, plane_of(drawing))
     return found.result()
 
 
@@ -85,6 +87,34 @@ def opened(path: Path) -> "Drawing":
     except (OSError, ezdxf.DXFError) as error:  # type: ignore[attr-defined]
         msg = f"{str(path)!r} cannot be read as a drawing: {error}"
         raise ParameterError(msg) from error
+
+
+def plane_of(drawing: "Drawing") -> str | None:
+    """Return the plane of a drawing with its unit, as PROJJSON; None if it does not say."""
+    from ezdxf.enums import InsertUnits
+    from ezdxf.units import conversion_factor, decode
+
+    code = drawing.header.get("$INSUNITS", 0)
+    if not code:
+        return None
+    unit = {
+        "type": "LinearUnit",
+        "name": decode(code),
+        "conversion_factor": conversion_factor(InsertUnits(code), InsertUnits.Meters),
+    }
+    names = ("Easting", "E", "east"), ("Northing", "N", "north")
+    axes = [
+        {"name": name, "abbreviation": short, "direction": way, "unit": unit}
+        for name, short, way in names
+    ]
+    return json.dumps(
+        {
+            "type": "EngineeringCRS",
+            "name": "Drawing",
+            "datum": {"type": "EngineeringDatum", "name": "Drawing"},
+            "coordinate_system": {"subtype": "Cartesian", "axis": axes},
+        }
+    )
 
 
 def lines_on(

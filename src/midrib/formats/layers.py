@@ -12,7 +12,7 @@ from midrib.errors import ParameterError
 from midrib.formats.bdot500 import kind_of
 from midrib.formats.gathering import Gathered, check_area
 from midrib.formats.guides import guides_for
-from midrib.formats.pairs import add_pairs, joined
+from midrib.formats.pairs import add_pairs
 from midrib.formats.reading import choose_layer, column_names, layer_names, listed, open_layer
 from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
 
@@ -108,7 +108,7 @@ def add_lines(found: Gathered, path: Path, hints: Hints) -> None:
         with open_layer(path, layer) as source:
             crs = source.crs
             parts = shapely.get_parts([g for b in source.batches() for g in b.geometries if g])
-        lines[name] = joined([part for part in parts if isinstance(part, LineString)])
+        lines[name] = [p for p in parts if isinstance(p, LineString) and p.length > 0.0]
     add_pairs(found, lines["top"], lines["toe"], path.stem, crs)
 
 
