@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import geopandas as gpd
 import pyarrow as pa
 import pyogrio
 import pytest
@@ -87,6 +88,35 @@ def test_no_stroke_enters_an_excluded_area(slopes: Path, tmp_path: Path, midrib:
     assert crossing[0] >= 2
     assert crossing[1] == 0
     assert len(both[1]) < len(both[0])
+
+
+def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runner) -> None:
+    source, zones = tmp_path / "in.gpkg", tmp_path / "houses.gpkg"
+    gpd.GeoDataFrame(geometry=[shapely.box(20, 2, 30, 6)], crs="EPSG:2177").to_file(zones)
+    areas = gpd.GeoSeries.from_wkt(AREAS, crs="EPSG:2178")
+    gpd.GeoDataFrame({"top": TOPS}, geometry=areas).to_file(source)
+    outcome = midrib("hatch", source, tmp_path / "a.gpkg", "--top", "top", "--exclude", zones)
+    assert outcome.code == 2
+    assert "is in another CRS than IN" in outcome.err
+
+
+def test_a_spacing_of_ones_own_is_not_bounded_by_the_standard(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    out = tmp_path / "out.gpkg"
+    assert midrib("hatch", slopes, out, "--top", "crest", "--spacing", "0.3").code == 0
+    dense = len(pyogrio.read_dataframe(out, layer="strokes"))
+    assert (
+        midrib("hatch", slopes, out, "--top", "crest", "--spacing", "0.6", "--overwrite").code == 0
+    )
+    assert dense == pytest.approx(2 * len(pyogrio.read_dataframe(out, layer="strokes")), rel=0.1)
+
+
+@pytest.mark.parametrize("scale", ["0", "nan"])
+def test_no_scale_is_refused(scale: str, slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    outcome = midrib("hatch", slopes, tmp_path / "a.gpkg", "--top", "crest", "--scale", scale)
+    assert outcome.code == 2
+    assert f"scale is {float(scale)}, expected a number above 0" in outcome.err
 
 
 def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midrib: Runner) -> None:

@@ -174,3 +174,15 @@ def test_wrong_hints_are_named(options: dict[str, str], reason: str | None, tmp_
         return
     with pytest.raises(ParameterError, match=reason):
         read_slopes(path, **options)  # type: ignore[arg-type]
+
+
+def test_a_top_at_no_place_is_refused_and_the_rest_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "slopes.csv"
+    area = "POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0))"
+    tops = "LINESTRING (0 2, nan 2)", "LINESTRING (0 2, 9 2)"
+    rows = "\n".join(f'"{area}","{top}"' for top in tops)
+    path.write_text(f"WKT,crest\n{rows}")
+    slopes, problems = read_slopes(path, top="crest")
+    assert len(slopes) == 1
+    expected = "the field 'crest' is 'LINESTRING (0 2, nan 2)', expected a line in WKT"
+    assert problems[0].reason == expected

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from shapely import LineString, Point, box
+from shapely import LineString, Point, Polygon, box
 
 from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
@@ -166,6 +166,17 @@ def test_editing_refuses_what_cannot_be() -> None:
         add_stroke(hatch(rectangle(), rule="paper"), (6.0, 3.0))
 
 
+def test_a_spacing_of_the_callers_has_no_bounds_of_the_standard() -> None:
+    hatching = hatch(rectangle(), spacing=0.3, scale=1000)
+    assert hatching.spacing == pytest.approx(np.full(len(hatching.spacing), 0.3), rel=0.01)
+
+
+def test_zones_that_are_not_valid_are_refused() -> None:
+    bow_tie = Polygon([(0, 0), (9, 9), (9, 0), (0, 9)])
+    with pytest.raises(InvalidAreaError, match=r"exclude\[1\] is not valid: Self-intersection"):
+        hatch(rectangle(), exclude=[box(0, 0, 1, 1), bow_tie])
+
+
 def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
     hatching = hatch(rectangle(), spacing=1e6, min_length=0.0)
     assert hatching.strokes.size == 0
@@ -188,6 +199,9 @@ def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
         ({"min_spacing": 0}, "min_spacing is 0"),
         ({"factor": 1.0, "spacing": 1.0}, "factor is 1.0 and spacing 1.0"),
         ({"min_length": -1}, "min_length is -1"),
+        ({"spacing": 4.0, "max_spacing": 1.0}, "spacing is 4.0, expected it between min_spacing"),
+        ({"spacing": 1.0, "min_spacing": 2.0}, "spacing is 1.0, expected it between min_spacing"),
+        ({"stiffness": 1e200}, "stiffness is 1e[+]200, expected a number above 0, 100 at most"),
         ({"max_spacing": 0.5}, "max_spacing is 0.5, expected min_spacing, 0.72, or more"),
         ({"standard": "pl-2015-conveyor"}, "'pl-2015-conveyor', which draws circles, expected one"),
         ({"pattern": "SS"}, "pattern is 'SS'"),

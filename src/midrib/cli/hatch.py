@@ -7,6 +7,7 @@ import typer
 
 from midrib.cli import options as cli
 from midrib.cli.options import DrawingRule, StartSide
+from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -76,12 +77,12 @@ def hatch(
     options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
-    check_standard(standard, values)
+    check_standard(standard, values, scale)
     slopes, problems = read_slopes(
         source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
     )
     if exclude is not None:
-        options["exclude"] = zones_in(exclude)
+        options["exclude"] = zones_in(exclude, slopes[0].crs if slopes else None)
     report = Report(quiet=quiet)
     report.start(lambda: try_out(standard, scale, values, **options))
     drawing = draw_slopes(
@@ -105,13 +106,23 @@ def given(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def zones_in(path: "Path") -> list["Polygon | MultiPolygon"]:
-    """Read the areas of a file, whatever else is in it."""
+def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
+    """Read the areas of a file, whatever else is in it.
+
+    Raises
+    ------
+    ParameterError
+        If they are in another CRS than the slopes.
+    """
     from shapely import MultiPolygon, Polygon
 
     from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.units import is_same_plane
 
     with open_layer(path, choose_layer(path, None)) as source:
+        if not is_same_plane(source.crs, crs):
+            msg = f"--exclude {str(path)!r} is in another CRS than IN, expected the same"
+            raise ParameterError(msg)
         features = [geometry for batch in source.batches() for geometry in batch.geometries]
     return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 

@@ -124,7 +124,9 @@ class PlacedGuides:
 def line_of_text(text: object) -> LineString | None:
     """Read a line in WKT or hexadecimal WKB, None if it is none."""
     try:
-        read = shapely.from_wkb(text) if set(str(text)) <= HEXADECIMAL else shapely.from_wkt(text)
+        with np.errstate(invalid="ignore"):  # a coordinate may be no number
+            is_hex = set(str(text)) <= HEXADECIMAL
+            read = shapely.from_wkb(text) if is_hex else shapely.from_wkt(text)
     except (shapely.errors.GEOSException, TypeError):
         return None
     return longest_line(np.array([read], dtype=object))
@@ -137,6 +139,8 @@ def longest_line(geometries: "Geometries") -> LineString | None:
     """Return the longest line when pieces that meet are joined, None if there is none."""
     pieces = shapely.get_parts(geometries)
     pieces = pieces[shapely.get_type_id(pieces) == shapely.GeometryType.LINESTRING]
+    known = [bool(np.isfinite(shapely.get_coordinates(piece)).all()) for piece in pieces]
+    pieces = pieces[np.array(known, dtype=np.bool_)]  # others cannot be merged
     joined = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(pieces), directed=True))
     joined = joined[shapely.length(joined) > 0.0]
     return joined[np.argmax(shapely.length(joined))] if joined.size else None

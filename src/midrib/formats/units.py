@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from midrib.errors import ParameterError
 
-__all__ = ["METRE", "Unit", "is_geographic", "is_wgs84", "length_in", "unit_of"]
+__all__ = ["METRE", "Unit", "is_geographic", "is_same_plane", "is_wgs84", "length_in", "unit_of"]
 
 METRES = {
     "mm": 0.001,
@@ -113,6 +113,16 @@ def is_geographic(crs: str | None) -> bool:
         msg = f"the CRS of IN counts in units of {name!r}, expected degrees or lengths"
         raise ParameterError(msg)
     return True
+
+
+def is_same_plane(crs: str | None, other: str | None) -> bool:
+    """Whether coordinates of two systems may go together: both are the same, or one is not told."""
+    if crs is None or other is None:
+        return True
+    found, expected = ({**horizontal(one)} for one in (crs, other))
+    if found.get("id") and expected.get("id"):
+        return bool(found["id"] == expected["id"])
+    return bool(found.get("name") == expected.get("name"))
 
 
 def is_wgs84(crs: str) -> bool:

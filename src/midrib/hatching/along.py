@@ -35,6 +35,7 @@ __all__ = ["symbols_along"]
 SAMPLES = 1024  # of the width along the axis
 STEPS = 32  # of moving a middle between the edges; each halves what is left, or better
 CLEAR = 0.9  # of the gap between large circles, that a small one takes at the most
+MOST = 100_000  # symbols of one object
 NEARLY = 1e-6  # relative: what rounding may take off a width or a whole number
 WITHIN = 1e-7  # of the extent: how far rounding may take a point out of its area
 
@@ -111,14 +112,25 @@ def ticks(strip: "Strip", known: "Standard", millimetre: float) -> Pen:
     low_x, low_y, high_x, high_y = strip.area.bounds
     extent = float(np.hypot(high_x - low_x, high_y - low_y))
     rays = shapely.linestrings(np.stack([starts, starts + extent * ways], axis=1))
-    pen = Pen()
+    ticks, number = [], []
     for i, (start, ray) in enumerate(zip(shapely.points(starts), rays, strict=True)):
         pieces = shapely.get_parts(shapely.intersection(ray, strip.area))
         pieces = pieces[shapely.get_dimensions(pieces) == 1]
         pieces = pieces[shapely.distance(pieces, start) <= WITHIN * extent]
         tick = max(pieces, key=shapely.length, default=None)  # rounding may split off a crumb
-        if tick is not None and not shapely.intersects(tick, pen.drawn).any():
-            pen.add(tick, i // len(halves))
+        if tick is not None:
+            ticks.append(tick)
+            number.append(i // len(halves))
+    pen = Pen()
+    met, by = shapely.STRtree(ticks).query(np.array(ticks, dtype=object), predicate="intersects")
+    before: dict[int, list[int]] = {}
+    for i, j in zip(met[by < met].tolist(), by[by < met].tolist(), strict=True):
+        before.setdefault(i, []).append(j)
+    drawn: set[int] = set()
+    for i, tick in enumerate(ticks):
+        if not drawn.intersection(before.get(i, ())):
+            drawn.add(i)
+            pen.add(tick, number[i])
     return pen
 
 
@@ -127,7 +139,14 @@ def evenly(chain: Chain, spacing: float, room: float) -> "Floats":
     if chain.is_closed:
         count = max(1, round(chain.length / spacing))
         return np.linspace(0.0, chain.length, count, endpoint=False)
-    count = 1 + int(max(chain.length - room, 0.0) / spacing * (1.0 + NEARLY))
+    wanted = max(chain.length - room, 0.0) / spacing * (1.0 + NEARLY)
+    if wanted > MOST:
+        msg = (
+            f"a spacing of {spacing:.3g} makes more than {MOST} symbols on an object that is "
+            f"{chain.length:.3g} long; scale or spacing is too small"
+        )
+        raise ParameterError(msg)
+    count = 1 + int(wanted)
     return 0.5 * chain.length + spacing * np.linspace(-0.5, 0.5, count) * (count - 1)
 
 

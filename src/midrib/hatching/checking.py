@@ -27,7 +27,7 @@ CHECKS = {
     "swapped": "the top is lower than the toe",
     "off-ring": "an edge, or its start or end, is off the boundary",
     "orientation": "it is doubtful which edge is the top",
-    "unmatched": "a stroke from the top to the toe is left out or cut short in some place",
+    "unmatched": "strokes are left out or cut short, or there is none, in some place",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
 MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
@@ -109,12 +109,14 @@ def check_slopes(
     [('swapped', 'POINT (5 0)')]
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
+    doubted = {finding.id for finding in found if finding.check == "orientation"}
     standards_named(standard)  # refuses an unknown one before any work is done
     for slope in slopes:
         interrupts.check()
-        off = [*boundary(slope)]
-        found += [*heights(slope), *off, *lengths(slope)]
-        if not off:
+        found += heights(slope)
+        doubts = [*boundary(slope), *lengths(slope)]
+        found += doubts
+        if not doubts and slope.id not in doubted:
             found += matching(slope, standard, scale, metres_per_unit)
     found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
     order = {check: k for k, check in enumerate(CHECKS)}

@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 from shapely import MultiPolygon, Point, Polygon
 
-from midrib.errors import GeometryTypeError
+from midrib.errors import GeometryTypeError, InvalidAreaError
+from midrib.hatching.bare import bare_stretches
 from midrib.hatching.matching import Drawn
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
@@ -66,6 +67,9 @@ def finish(
     share = np.where(is_long, 1.0, rule.short_ratio)
     if keep_apart:
         shorten(drawn, kept & is_long, gap, share, problems)
+        for bare in bare_stretches(strip, rule, drawn.on_top[kept], drawn.on_toe[kept], least):
+            reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
+            problems.append(Problem(bare.where, reason))
     hide(drawn, kept, share, zones, strip, problems)
     return Finished(kept, is_long, share, problems)
 
@@ -148,6 +152,8 @@ def zones_of(exclude: Any) -> Any:
     ------
     GeometryTypeError
         If a zone is not polygonal.
+    InvalidAreaError
+        If one is not valid.
     """
     if exclude is None:
         return None
@@ -157,4 +163,7 @@ def zones_of(exclude: Any) -> Any:
             kind = getattr(zone, "geom_type", type(zone).__name__)
             msg = f"exclude[{i}] is a {kind}, expected a Polygon or MultiPolygon"
             raise GeometryTypeError(msg)
+        if not zone.is_valid:
+            msg = f"exclude[{i}] is not valid: {shapely.is_valid_reason(zone)}"
+            raise InvalidAreaError(msg)
     return shapely.union_all(zones)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 __all__ = ["Hatching", "hatch"]
 
 STIFFNESS = 0.9  # see hatch
+MOST_STIFF = 100.0  # from there on all strokes of a slope are parallel
+LARGEST = float(np.finfo(np.float64).max)
 STARTS = ("left", "right", "first", "last")
 RULES = ("matching", "paper")
 
@@ -198,7 +200,7 @@ def hatch(
     check_choice(first, "first", (None, "long", "short"))
     check_flag(end_strokes, "end_strokes")
     check_above_zero(offset, "offset")
-    check_above_zero(stiffness, "stiffness")
+    check_above_zero(stiffness, "stiffness", MOST_STIFF)
     least = least_length(min_length, ground, scale / MILLIMETRES / metres_per_unit)
     zones = zones_of(exclude)
     where: Ground | None = None
@@ -274,8 +276,9 @@ def check_choice(value: Any, name: str, choices: tuple[str | None, ...]) -> None
         raise ParameterError(msg)
 
 
-def check_above_zero(value: Any, name: str) -> None:
-    """Refuse what is no finite number above 0."""
-    if not is_number(value) or not 0.0 < value < np.inf:
-        msg = f"{name} is {shown(value)}, expected a number above 0"
+def check_above_zero(value: Any, name: str, most: float = LARGEST) -> None:
+    """Refuse what is no number above 0, or too large."""
+    if not is_number(value) or not 0.0 < value <= most:
+        bound = "" if most == LARGEST else f", {most:g} at most"
+        msg = f"{name} is {shown(value)}, expected a number above 0{bound}"
         raise ParameterError(msg)

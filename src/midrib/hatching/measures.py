@@ -120,7 +120,7 @@ def measure_strokes(
         outside = float(shapely.length(shapely.difference(strokes, near)).sum())
     off = np.maximum(
         shapely.distance(shapely.points(on_top), main),
-        shapely.distance(shapely.points(on_toe), auxiliary),
+        shapely.distance(shapely.get_point(strokes, -1), auxiliary),
     )
     every = np.ones(len(width), dtype=np.bool_)
     top_steps = steps_on(main, on_top, asked, every, closed)

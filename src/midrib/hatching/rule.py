@@ -1,5 +1,6 @@
 """How far apart strokes are and how long: the rule of a standard, in ground units."""
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -79,6 +80,8 @@ def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -
     for name, other in (("factor", "spacing"), ("spacing", "factor")):
         if name in given:
             values[other] = None
+    if "spacing" in given:  # the standard's bounds are those of its factor
+        values |= {"min_spacing": 0.0, "max_spacing": None}
     values |= given
     if given.get("min_spacing") == 0.0:
         check_positive(given["min_spacing"], "min_spacing")
@@ -108,8 +111,11 @@ def check_gaps(values: dict[str, Any]) -> None:
         if value is not None and not (name == "min_spacing" and factor is None and value == 0.0):
             check_positive(value, name)
     least, most = values["min_spacing"], values["max_spacing"]
-    if factor is not None and most is not None and most < least:
+    if most is not None and most < least:
         msg = f"max_spacing is {shown(most)}, expected min_spacing, {shown(least)}, or more"
+        raise ParameterError(msg)
+    if spacing is not None and not least <= spacing <= (math.inf if most is None else most):
+        msg = f"spacing is {shown(spacing)}, expected it between min_spacing and max_spacing"
         raise ParameterError(msg)
 
 

@@ -141,7 +141,7 @@ class Standard:
     def with_values(self, **values: Any) -> "Standard":
         """Return the standard with some values of the caller's, which hold at every scale.
 
-        A spacing takes the place of a factor and the other way round.
+        A spacing takes the place of a factor and of its bounds, and the other way round.
 
         Raises
         ------
@@ -153,6 +153,8 @@ class Standard:
         for key, other in (("spacing", "factor"), ("factor", "spacing")):
             if key in values:
                 values.setdefault(other, None)
+        if values.get("spacing") is not None:
+            values = {"min_spacing": 0.0, "max_spacing": None} | values
         elsewhere = tuple(
             (scale, {key: value for key, value in some.items() if key not in values})
             for scale, some in self.by_scale
@@ -337,6 +339,10 @@ def consistent(found: Standard, where: str) -> Standard:
         != (found.gentle_run is None),
         "a key 'max_spacing' below 'min_spacing'": found.max_spacing is not None
         and found.max_spacing < found.min_spacing,
+        "a key 'spacing' that is not between 'min_spacing' and 'max_spacing'": (
+            found.spacing is not None
+            and not found.min_spacing <= found.spacing <= (found.max_spacing or math.inf)
+        ),
     }
     for fault, is_there in rules.items():
         if is_there:

@@ -135,8 +135,8 @@ def styled(name: str, kind: str, values: dict[str, Any]) -> "Standard | None":
     return known.with_values(**values)
 
 
-def check_standard(name: str, values: dict[str, Any]) -> None:
-    """Refuse a standard that there is not, or values it cannot have, before any work is done.
+def check_standard(name: str, values: dict[str, Any], scale: float) -> None:
+    """Refuse a standard that there is not, or values or a scale it cannot have, before any work.
 
     Raises
     ------
@@ -144,7 +144,7 @@ def check_standard(name: str, values: dict[str, Any]) -> None:
         If so.
     """
     for known in standards_named(name):
-        styled(name, known.kinds[0], values)
+        (styled(name, known.kinds[0], values) or known).at(scale)
 
 
 def try_out(name: str, scale: float, values: dict[str, Any], **options: Any) -> None:
