@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import pyogrio
 import shapely
 from numpy.typing import NDArray
 from shapely import LineString
 
 from hatch_slopes import KINDS, Slope, noisy, random_slopes, real_dutch, real_polish, shapes
-from midrib import Strip, minimal_radii
+from midrib import Strip, minimal_radii, read_slopes
 from midrib.errors import MidribError
 from midrib.hatching import Hatching, Rule, hatch
 from midrib.hatching.measures import Measures, measure, measure_strokes
@@ -28,11 +29,12 @@ Ends = tuple[Floats, Floats]
 PAGE = ROOT / "docs" / "hatching.md"
 BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 SEED, COUNT = 1000, 1200
+SHARED = ROOT.parent / "shared" / "data"
 PICTURED = ("L_top_outer", "s_curve", "bay", "spur_bottom")
 HEAD = (
     "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
     "spacing within 0.9 to 1.1", "worst spacing", "worst gap on top, toe", "least foot",
-    "turned too far", "worst turn", "tilt, 99 %",
+    "turned too far", "worst turn", "tilt, 99 %, worst", "stretch", "worst end gap",
 )  # fmt: skip
 
 
@@ -178,7 +180,9 @@ def summary(title: str, rows: list[Row]) -> list[str]:
         f"{min(m.least_foot for m in every):.2f}",
         f"{100.0 * np.mean(beyond > 0.5):.2f} %",
         f"{turns.max():.0f}°",
-        f"{np.percentile(tilts, 99):.1f}°" if tilts.size else "",
+        f"{np.percentile(tilts, 99):.1f}°, {tilts.max():.1f}°" if tilts.size else "",
+        f"{min(m.stretch for m in every):.2f} to {max(m.stretch for m in every):.2f}",
+        f"{max(m.end_gap for m in every):.1f}",
     ]
 
 
@@ -347,6 +351,38 @@ def main() -> int:
     return 0
 
 
+def reference() -> str:
+    """Our strokes beside those of a published drawing, as a sentence; nothing without the file."""
+    path = SHARED / "pl_szkoleniowy_skarpa_kreski.gpkg"
+    if not path.exists():
+        return ""
+    drawn = pyogrio.read_dataframe(path, layer="kreski_wzorcowe").geometry.to_numpy()
+    drawn = drawn[shapely.get_num_coordinates(drawn) == 2]
+    start, stop = (shapely.get_coordinates(shapely.get_point(drawn, k)) for k in (0, 1))
+    step = float(np.median(np.hypot(*np.diff(start, axis=0).T)))
+    theirs = np.degrees(np.arctan2(*(stop - start).T[::-1]))
+    (slope,), _ = read_slopes(path)
+    told = []
+    ways: dict[str, dict[str, float]] = {
+        "by the standard": {},
+        "with its spacing": {"spacing": step, "scale": 1000.0},
+    }
+    for name, options in ways.items():
+        ours = hatch(slope.strip(), **options)  # type: ignore[arg-type]
+        angle = np.degrees(np.arctan2(*(ours.on_toe - ours.on_top).T[::-1]))
+        near = shapely.STRtree(shapely.points(start)).nearest(shapely.points(ours.on_top))
+        off = abs((angle - theirs[near] + 90.0) % 180.0 - 90.0)
+        told.append(
+            f"{name} ours has {len(ours.strokes)} strokes, {np.median(ours.spacing):.2f} m apart, "
+            f"of which {np.count_nonzero(off <= 5.0)} are within 5° of the nearest one of theirs, "
+            f"and the worst is {off.max():.0f}° off"
+        )
+    return (
+        f"The reference drawing of the Polish training data has {len(drawn)} strokes, {step:.2f} m "
+        f"apart: {'; '.join(told)}.\n\n"
+    )
+
+
 def page(groups: list[list[str]], rivals: list[list[str]], shaken: Floats, count: int) -> str:
     """Figures as text."""
     fast = [speed(n, gap) for n, gap in ((1600, 5.0), (1600, 2.0), (12_800, 5.0))]
@@ -359,6 +395,7 @@ def page(groups: list[list[str]], rivals: list[list[str]], shaken: Floats, count
         f"Noise of a tenth of the width on the top turns the strokes of {len(shaken)} slopes by "
         f"{np.median(shaken):.1f}° at most in half of them, by {np.percentile(shaken, 95):.1f}° in "
         f"19 of 20, by {shaken.max():.1f}° in the worst.\n\n"
+        f"{reference()}"
         f"One core draws {rates[0]:,.0f} strokes a second on edges of 1,600 vertices "
         f"({fast[0][0]:,} strokes), {rates[1]:,.0f} if there are {fast[1][0]:,}, and "
         f"{rates[2]:,.0f} on edges of 12,800 ({fast[2][0]:,} strokes), triangulation and middle "

@@ -121,11 +121,11 @@ def test_nothing_makes_an_empty_drawing() -> None:
 
 
 def test_standards_are_checked_before_any_work() -> None:
-    check_standard("pl-2021", {"symbol": "wedge", "symbol_width": 0.4})
+    check_standard("pl-2021", {"symbol": "wedge", "symbol_width": 0.4}, 500.0)
     with pytest.raises(ParameterError, match="standard is 'pl-2035'"):
-        check_standard("pl-2035", {})
+        check_standard("pl-2035", {}, 500.0)
     with pytest.raises(ParameterError, match="key 'symbol' is 'zigzag'"):
-        check_standard("pl-2021", {"symbol": "zigzag"})
+        check_standard("pl-2021", {"symbol": "zigzag"}, 500.0)
 
 
 @pytest.mark.shared

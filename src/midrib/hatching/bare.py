@@ -6,6 +6,7 @@ import numpy as np
 import shapely
 from shapely import Point
 
+from midrib.hatching.chains import chain_of
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
 from midrib.types import Bools, Floats
@@ -51,11 +52,10 @@ def bare_stretches(
         ("top", strip.main, strip.auxiliary),
         ("toe", strip.auxiliary, strip.main),
     ):
-        step = max(float(rule.gaps(width).min()) / STEPS_PER_GAP, edge.length / MOST_STEPS)
+        step = max(float(np.median(rule.gaps(width))) / STEPS_PER_GAP, edge.length / MOST_STEPS)
         at = np.arange(step / 2.0, edge.length, step)
-        places = shapely.line_interpolate_point(edge, at)
-        nearest = tree.query_nearest(places, all_matches=False)[1]
-        away = shapely.distance(places, tree.geometries[nearest])
+        places = shapely.points(chain_of(edge).at(at))
+        (_, nearest), away = tree.query_nearest(places, return_distance=True, all_matches=False)
         gap = rule.gaps(width[nearest])
         is_bare = away > FAR * gap
         is_bare[is_bare] = shapely.distance(places[is_bare], other) >= least
