@@ -140,19 +140,16 @@ def close_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
     beyond, onward = w.twin[before], w.twin[after]
     w.key[e // 3] = np.inf
     requeue(w, e // 3)
-    ax, ay = place(w, a, now)
-    bx, by = place(w, b, now)
-    if w.rush[a] != NO:
-        ax, ay = bx, by
-    elif w.rush[b] == NO:
-        ax, ay = (ax + bx) / 2.0, (ay + by) / 2.0
-    node = add_node(s, ax, ay, now)
+    # Of a fast vertex time says little about where it is, of one that rushes nothing.
+    is_slow = w.rush[a] == NO and (w.rush[b] != NO or abs(w.tau[a]) < abs(w.tau[b]))
+    px, py = place(w, a if is_slow else b, now)
+    node = add_node(s, px, py, now)
     end_vertex(w, s, a, node)
     end_vertex(w, s, b, node)
     if beyond < 0 and onward < 0:
         cx, cy = place(w, c, now)
         other = node
-        if length(cx - ax, cy - ay) > NEAR:  # two edges that face each other: a ridge
+        if w.rush[c] != NO and length(cx - px, cy - py) > NEAR:  # two edges that face each other: a ridge
             other = add_node(s, cx, cy, now)
             add_arc(s, node, other, w.edge[before], w.edge[after])
         end_vertex(w, s, c, other)
