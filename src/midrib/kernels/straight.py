@@ -190,17 +190,14 @@ def swap_spoke(w: Wavefront, s: Traces, e: int, now: float) -> None:
     """Swap the spoke on half-edge e, or a longer one of a neighbour that is flat as well.
 
     Of vertices that come to lie on one line the longest spoke goes first, and always for a shorter
-    one: so swaps come to an end.
+    one: so swaps come to an end. A neighbour may have been flat all along.
     """
-    longest = longest_side(w, e // 3, now)[1]
+    _, longest, _ = longest_side(w, e // 3, now)
     for _ in range(w.tri.size):
-        t = w.twin[e] // 3
-        if w.kind[t] != FLIP or w.key[t] > now + NEAR:
+        side, size, height = longest_side(w, w.twin[e] // 3, now)
+        if size <= longest or height > NEAR or w.twin[side] < 0:
             break
-        _, size = longest_side(w, t, now)
-        if size <= longest:
-            break
-        e, longest = w.side[t], size
+        e, longest = side, size
     t, u = e // 3, w.twin[e] // 3
     flip(e, w.tri, w.twin, w.edge, s.out)
     schedule(w, t, now)

@@ -29,6 +29,7 @@ from typing import NamedTuple
 import numpy as np
 
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Bools, Floats, Ints
 
@@ -171,16 +172,19 @@ def first_fall(a: float, b: float, c: float) -> float:
 
 
 @njit(borrows=True)
-def longest_side(w: Wavefront, t: int, now: float) -> tuple[int, float]:
-    """Longest side of triangle t, and its squared length."""
+def longest_side(w: Wavefront, t: int, now: float) -> tuple[int, float, float]:
+    """Longest side of triangle t, its length, and the height above it."""
     longest, side = -1.0, 3 * t
+    ax, ay = place(w, w.tri[3 * t], now)
+    bx, by = place(w, w.tri[3 * t + 1], now)
+    cx, cy = place(w, w.tri[3 * t + 2], now)
+    doubled = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
     for e in range(3 * t, 3 * t + 3):
-        ax, ay = place(w, w.tri[e], now)
-        bx, by = place(w, w.tri[next_side(e)], now)
-        squared = (bx - ax) ** 2 + (by - ay) ** 2
-        if squared > longest:
-            longest, side = squared, e
-    return side, longest
+        size = length(bx - ax, by - ay)
+        if size > longest:
+            longest, side = size, e
+        ax, ay, bx, by, cx, cy = bx, by, cx, cy, ax, ay
+    return side, longest, doubled / longest if longest > 0.0 else 0.0
 
 
 @njit(borrows=True)
@@ -215,6 +219,7 @@ def schedule(w: Wavefront, t: int, now: float) -> None:
             while w.twin[e] >= 0:
                 e += 1
             at, side, kind = meeting(w, e, now)
+        at += NEAR if kind == FLIP else 0.0  # what happens to the wavefront goes first
         if at < w.key[t]:
             w.key[t], w.side[t], w.kind[t] = at, side, kind
     requeue(w, t)
