@@ -297,7 +297,7 @@ def straight_skeleton(mesh: Mesh) -> Roof:
         t = w.winner[1]
         if w.key[t] == np.inf:
             break
-        now, e = max(now, w.key[t]), w.side[t]
+        now, e = max(now, w.key[t] - (NEAR if w.kind[t] == FLIP else 0.0)), w.side[t]
         if w.kind[t] == EDGE:
             left -= close_edge(w, s, e, now)
         elif w.kind[t] == SPLIT:

@@ -127,12 +127,19 @@ def edge_length(w: Wavefront, e: int, t: float) -> float:
 
 @njit(borrows=True)
 def edge_collapse(w: Wavefront, e: int, now: float) -> float:
-    """When the piece of an edge on half-edge e has no length; inf if it grows."""
+    """When the piece of an edge on half-edge e has no length; inf if it keeps some.
+
+    Where reflex vertices meet head-on, an edge without length may come to lie between two edges on
+    one line. It neither shrinks nor grows, and goes at once.
+    """
     a, b = w.tri[e], w.tri[next_side(e)]
     if w.rush[a] == ON or w.rush[b] == BACK:
         return AT_ONCE
-    rate = w.tau[a] + w.tau[b]
-    return now + max(edge_length(w, e, now), 0.0) / rate if rate > 0.0 else np.inf
+    rate, size = w.tau[a] + w.tau[b], edge_length(w, e, now)
+    speeds = 1.0 + abs(w.tau[a]) + abs(w.tau[b])
+    if abs(rate) <= NEAR * speeds and size <= NEAR * speeds:
+        return now
+    return now + max(size, 0.0) / rate if rate > 0.0 else np.inf
 
 
 @njit(borrows=True)
