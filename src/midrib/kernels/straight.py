@@ -98,14 +98,14 @@ def end_vertex(w: Wavefront, s: Traces, a: int, node: int) -> None:
 
 @njit(borrows=True)
 def add_vertex(
-    w: Wavefront, s: Traces, node: int, before: int, after: int, may_be_reflex: bool
+    w: Wavefront, s: Traces, node: int, before: int, after: int, about: float
 ) -> int:
-    """Add a vertex of the wavefront that is born in a node."""
+    """Add a vertex of the wavefront that is born in a node and turns by about so much."""
     a = s.count[VERTICES]
     s.count[VERTICES] += 1
     w.x[a], w.y[a], w.birth[a], w.node[a] = s.node[node, 0], s.node[node, 1], s.node[node, 2], node
     w.before[a], w.after[a] = before, after
-    set_motion(w, a, may_be_reflex)
+    set_motion(w, a, about)
     return a
 
 
@@ -154,7 +154,7 @@ def close_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
             add_arc(s, node, other, w.edge[before], w.edge[after])
         end_vertex(w, s, c, other)
         return 1
-    v = add_vertex(w, s, node, w.before[a], w.after[b], w.is_reflex[a] or w.is_reflex[b])
+    v = add_vertex(w, s, node, w.before[a], w.after[b], w.turn[a] + w.turn[b])
     s.node[node, 0], s.node[node, 1] = w.x[v], w.y[v]
     if beyond < 0:
         w.twin[onward], w.edge[onward] = -1, w.edge[before]
@@ -178,8 +178,9 @@ def split_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
     end_vertex(w, s, c, node)
     w.twin[to_a] = w.twin[to_b] = -1
     w.edge[to_a] = w.edge[to_b] = k
-    one = add_vertex(w, s, node, w.before[c], k, False)
-    other = add_vertex(w, s, node, k, w.after[c], False)
+    about = np.pi + w.turn[c] / 2.0  # the edge itself turns back: half a turn for either
+    one = add_vertex(w, s, node, w.before[c], k, about)
+    other = add_vertex(w, s, node, k, w.after[c], about)
     settle(w, to_b, one, now)
     settle(w, next_side(to_a), other, now)
     return 1
@@ -229,7 +230,7 @@ def wavefront_of(mesh: Mesh) -> tuple[Wavefront, Traces, int]:
         np.empty(count), np.empty(count), np.empty(count),
         np.empty(vertices), np.empty(vertices), np.empty(vertices), np.empty(vertices, np.intp),
         np.empty(vertices), np.empty(vertices), np.empty(vertices), np.empty(vertices, np.intp),
-        np.empty(vertices, np.intp), np.empty(vertices, np.bool_), np.empty(vertices, np.intp),
+        np.empty(vertices, np.intp), np.empty(vertices), np.empty(vertices, np.intp),
         np.empty(size, np.intp), mesh.twin.copy(), edge,
         key, np.zeros(leaves, np.intp), np.zeros(leaves, np.intp), winner,
     )  # fmt: skip
@@ -259,7 +260,7 @@ def wavefront_of(mesh: Mesh) -> tuple[Wavefront, Traces, int]:
             e = after
     for e in range(size):
         if edge[e] >= 0:
-            add_vertex(w, s, edge[e], w.before[edge[e]], edge[e], True)
+            add_vertex(w, s, edge[e], w.before[edge[e]], edge[e], 0.0)
     for first in range(size):
         e = first
         while edge[first] >= 0:

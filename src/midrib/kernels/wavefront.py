@@ -31,7 +31,7 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.triangulation import next_side, previous_side
-from midrib.types import Bools, Floats, Ints
+from midrib.types import Floats, Ints
 
 __all__ = [
     "EDGE",
@@ -47,8 +47,7 @@ __all__ = [
 
 EDGE, SPLIT, FLIP = 0, 1, 2  # an edge has no length; a vertex meets an edge; or meets a spoke
 NEAR = 2.0**-40  # of the extent, which is 1: what is as near as this is together
-FACING = 2.0**-40  # sine of the angle between edges that face each other
-TURNED_TOO_FAR = -(2.0**-30)  # sine of a turn between two left turns: more than half a turn
+FACING = 2.0**-40  # radians; the angle between edges that face each other
 NO, BACK, ON = 0, 1, 2  # which edge a vertex rushes along: none, the one before it, the one after
 AT_ONCE = -1.0
 
@@ -68,7 +67,7 @@ class Wavefront(NamedTuple):
     tau: Floats
     before: Ints  # the edge that ends in it and the one that starts
     after: Ints
-    is_reflex: Bools
+    turn: Floats  # how far it turns to the left
     rush: Ints
     tri: Ints  # of each half-edge: the vertex that it leaves,
     twin: Ints
@@ -87,21 +86,21 @@ def place(w: Wavefront, a: int, t: float) -> tuple[float, float]:
 
 
 @njit(borrows=True)
-def set_motion(w: Wavefront, a: int, may_be_reflex: bool) -> None:
+def set_motion(w: Wavefront, a: int, about: float) -> None:
     """Set the speed of a vertex between its two edges, and move it onto both lines exactly.
 
-    What the lines of two edges have in common is the sum of their normals along the bisector and
-    the difference across; either is left alone where it is next to nothing.
+    It turns by what its edges say, and by as many whole turns as bring that next to ``about``.
+    What their lines have in common is the sum of their normals along the bisector and the
+    difference across; either is left alone where it is next to nothing.
     """
     f, g = w.before[a], w.after[a]
     sine = w.nx[f] * w.ny[g] - w.ny[f] * w.nx[g]
     cosine = w.nx[f] * w.nx[g] + w.ny[f] * w.ny[g]
-    is_facing = cosine < 0.0 and sine <= FACING and (sine >= -FACING or not may_be_reflex)
-    has_turned_too_far = not may_be_reflex and sine < TURNED_TOO_FAR
-    w.is_reflex[a] = may_be_reflex and sine < 0.0 and not is_facing
+    turn = np.arctan2(sine, cosine)
+    w.turn[a] = turn + 2.0 * np.pi * np.rint((about - turn) / (2.0 * np.pi))
     w.rush[a] = NO
     w.u[a] = w.v[a] = w.tau[a] = 0.0
-    if is_facing or has_turned_too_far:
+    if w.turn[a] >= np.pi - FACING:
         w.rush[a] = ON  # to be decided once its edges are there
         return
     w.tau[a] = sine / (1.0 + cosine) if cosine > 0.0 else (1.0 - cosine) / sine
@@ -143,12 +142,31 @@ def edge_collapse(w: Wavefront, e: int, now: float) -> float:
 
 
 @njit(borrows=True)
+def higher_spoke(w: Wavefront, e: int, now: float) -> int:
+    """Side next to the edge on half-edge e beyond which the area reaches farther inside."""
+    k, best, highest = w.edge[e], -1, -np.inf
+    for side in (next_side(e), previous_side(e)):
+        x, y = place(w, w.tri[previous_side(w.twin[side])], now)
+        height = w.nx[k] * x + w.ny[k] * y
+        if height > highest:
+            best, highest = side, height
+    return best
+
+
+@njit(borrows=True)
 def meeting(w: Wavefront, e: int, now: float) -> tuple[float, int, int]:
-    """When the vertex across from the edge on half-edge e meets its line, and what it meets."""
+    """When the vertex across from the edge on half-edge e meets its line, and what it meets.
+
+    If the edge only begins to grow, its triangle may turn out to be on the wrong side: then a
+    spoke is swapped at once.
+    """
     k, c = w.edge[e], w.tri[previous_side(e)]
     cx, cy = place(w, c, now)
     height = w.nx[k] * cx + w.ny[k] * cy - w.reach[k] - now
     rate = 1.0 - w.nx[k] * w.u[c] - w.ny[k] * w.v[c]
+    tau = w.tau[w.tri[e]] + w.tau[w.tri[next_side(e)]]
+    if height < -NEAR and tau < 0.0 and edge_length(w, e, now) <= NEAR * (1.0 - tau):
+        return now, higher_spoke(w, e, now), FLIP
     if rate <= 0.0:
         return np.inf, e, SPLIT
     t = now + max(height, 0.0) / rate
