@@ -49,13 +49,17 @@ def offset_area(found: StraightSkeleton, time: float) -> float:
     """Area that the wavefront encloses: of every face what is higher."""
     total = 0.0
     for walk in found.faces:
-        a, b = found.points[walk[-1]], found.points[walk[0]]
-        along = (b - a) / np.hypot(*(b - a))
-        inside = np.array([-along[1], along[0]])
-        far = 10.0 * np.ptp(found.points)
-        low, high = a + time * inside, a + far * inside
-        strip = [low - far * along, low + far * along, high + far * along, high - far * along]
-        total += Polygon(found.points[walk]).intersection(Polygon(strip)).area
+        p, t = found.points[walk] - found.points[walk[0]], found.time[walk]
+        higher = []
+        for i in range(len(walk)):
+            if (t[i - 1] > time) != (t[i] > time):
+                share = (time - t[i - 1]) / (t[i] - t[i - 1])
+                higher.append(p[i - 1] + share * (p[i] - p[i - 1]))
+            if t[i] > time:
+                higher.append(p[i])
+        if higher:
+            x, y = np.array(higher).T
+            total += float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0
     return total
 
 
@@ -81,7 +85,7 @@ def test_regular_polygon_meets_in_its_centre(n: int) -> None:
     assert len(found.ridges) == n
 
 
-def test_L_shape_in_closed_form() -> None:
+def test_corner_of_two_arms_in_closed_form() -> None:
     found = nodes_of(roof_of(VALID["L"]))
     expected = [(1, 1, 1), (9, 1, 1), (1, 9, 1)]
     assert np.unique(found.round(9), axis=0).tolist() == sorted(map(list, expected))
@@ -104,12 +108,9 @@ def test_wedge_meets_in_its_incentre(beta: float) -> None:
 
 
 def test_collinear_vertices_change_nothing() -> None:
-    area = VALID["L"]
-    assert lines_in(roof_of(area.segmentize(0.3))).equals_exact(
-        lines_in(roof_of(area)), 1e-9
-    ) or lines_in(roof_of(area.segmentize(0.3))).hausdorff_distance(
-        lines_in(roof_of(area))
-    ) < 1e-9
+    few, many = (lines_in(roof_of(area)) for area in (VALID["L"], VALID["L"].segmentize(0.3)))
+    assert many.hausdorff_distance(few) < 1e-9
+    assert many.length == pytest.approx(few.length)
 
 
 def check_roof(area: Polygon) -> StraightSkeleton:
@@ -125,8 +126,6 @@ def check_roof(area: Polygon) -> StraightSkeleton:
         a, b = found.points[walk[-1]], found.points[walk[0]]
         (dx, dy), (x, y) = (b - a) / np.hypot(*(b - a)), (found.points[walk] - a).T
         assert np.abs(dx * y - dy * x - found.time[walk]).max() < 1e-9 * size
-    clear = shapely.distance(shapely.points(found.points), area.boundary)
-    assert (found.time <= clear + 1e-9 * size).all() or (found.time > 0).any()
     return found
 
 
@@ -155,10 +154,12 @@ def test_time_is_the_largest_coordinate_distance_among_right_angles(
     found = roof_of(affinity.rotate(area, angle, origin=(0, 0)))
     back = MultiPoint(found.points)
     points = shapely.get_coordinates(affinity.rotate(back, -angle, origin=(0, 0)))
-    segments = shapely.get_parts(shapely.unary_union(area.boundary.segmentize(1.0)))
-    ends = np.concatenate([np.lib.stride_tricks.sliding_window_view(
-        shapely.get_coordinates(ring), 2, axis=0) for ring in (area.exterior, *area.interiors)])
-    assert len(segments)
+    ends = np.concatenate(
+        [
+            np.lib.stride_tricks.sliding_window_view(shapely.get_coordinates(ring), 2, axis=0)
+            for ring in (area.exterior, *area.interiors)
+        ]
+    )
     low, high = ends.min(axis=2), ends.max(axis=2)
     away = np.maximum(np.maximum(low - points[:, None], points[:, None] - high), 0.0)
     assert away.max(axis=2).min(axis=1) == pytest.approx(found.time, abs=1e-9)
@@ -169,11 +170,11 @@ def test_time_is_the_largest_coordinate_distance_among_right_angles(
 def test_offsets_are_mitred_buffers_in_small_steps(area: Polygon, share: float) -> None:
     """Before anything happens one buffer is a step; after it, the limit of small steps is."""
     found = roof_of(area)
-    time, steps = share * float(found.time.max()), 60
+    time, steps = share * float(found.time.max()), 200
     rest: Any = area
     for _ in range(steps):
         rest = rest.buffer(-time / steps, join_style="mitre", mitre_limit=1e6)
-    slack = area.length * time / steps
+    slack = area.length * time / steps / 4.0
     assert offset_area(found, time) == pytest.approx(rest.area, abs=slack)
 
 

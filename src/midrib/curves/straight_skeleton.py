@@ -79,6 +79,7 @@ def unsound(mesh: Mesh, roof: Roof, faces: Faces) -> str:
     """Say what is wrong with a skeleton."""
     nodes, arcs = len(roof.node), len(roof.arc)
     return (
-        f"the straight skeleton of {mesh.x.size} vertices has {nodes} nodes, {arcs} arcs and a "
-        f"node {faces.miss:.3g} of the extent off its plane, expected a roof; please report the area"
+        f"the straight skeleton of {mesh.x.size} vertices has {nodes} nodes, {arcs} arcs and "
+        f"a node {faces.miss:.3g} of the extent off its plane, "
+        "expected a roof; please report the area"
     )

@@ -22,7 +22,7 @@ from midrib.kernels.straight import Roof
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.wavefront import NEAR
-from midrib.types import Floats, Ints
+from midrib.types import Ints
 
 __all__ = ["SLACK", "Faces", "faces_of", "ridges_of"]
 
@@ -66,7 +66,7 @@ def half_arcs_of(roof: Roof, faces: int) -> tuple[Ints, Ints]:
 def faces_of(mesh: Mesh, roof: Roof) -> Faces:
     """Walk round every face of a skeleton, and find out whether it is sound; O(n)."""
     node, arc = roof.node, roof.arc
-    faces = np.count_nonzero(mesh.twin < 0)
+    faces = int(np.count_nonzero(mesh.twin < 0))
     start, half = half_arcs_of(roof, faces)
     nodes, offsets, count = np.empty(half.size + faces, np.intp), np.zeros(faces + 1, np.intp), 0
     leaving, face, miss = np.full(node.shape[0], -1, np.intp), -1, 0.0
@@ -120,10 +120,10 @@ def first_of(chief: Ints, i: int) -> int:
 def ridges_of(mesh: Mesh, roof: Roof) -> Ints:
     """Arcs that are seen, as rows of nodes: those of no length go, their nodes become one.
 
-    So do arcs from vertices in the middle of straight edges: no ridge is between faces of one plane.
+    So do arcs from vertices in the middle of straight edges: their two faces are one plane.
     """
     node, arc = roof.node, roof.arc
-    faces = np.count_nonzero(mesh.twin < 0)
+    faces = int(np.count_nonzero(mesh.twin < 0))
     nx, ny, face = np.empty(faces), np.empty(faces), 0
     for e in range(mesh.twin.size):
         if mesh.twin[e] < 0:
@@ -140,7 +140,9 @@ def ridges_of(mesh: Mesh, roof: Roof) -> Ints:
     ridges, count = np.empty((arc.shape[0], 2), np.intp), 0
     for k in range(arc.shape[0]):
         i, j, f, g = first_of(chief, arc[k, 0]), first_of(chief, arc[k, 1]), arc[k, 2], arc[k, 3]
-        is_straight = abs(nx[f] * ny[g] - ny[f] * nx[g]) <= SAME and nx[f] * nx[g] + ny[f] * ny[g] > 0.0
+        is_straight = (
+            abs(nx[f] * ny[g] - ny[f] * nx[g]) <= SAME and nx[f] * nx[g] + ny[f] * ny[g] > 0.0
+        )
         if i == j or (arc[k, 0] < faces and is_straight):
             continue
         ridges[count, 0], ridges[count, 1] = i, j

@@ -219,9 +219,10 @@ def flattening(w: Wavefront, t: int, now: float) -> tuple[float, int, int]:
     ax, ay = place(w, a, now)
     bx, by = place(w, b, now)
     cx, cy = place(w, c, now)
-    bx, by, cx, cy = bx - ax, by - ay, cx - ax, cy - ay
-    bu, bv, cu, cv = w.u[b] - w.u[a], w.v[b] - w.v[a], w.u[c] - w.u[a], w.v[c] - w.v[a]
-    at = now + first_fall(bu * cv - bv * cu, bx * cv - by * cu + bu * cy - bv * cx, bx * cy - by * cx)
+    px, py, qx, qy = bx - ax, by - ay, cx - ax, cy - ay
+    pu, pv, qu, qv = w.u[b] - w.u[a], w.v[b] - w.v[a], w.u[c] - w.u[a], w.v[c] - w.v[a]
+    slope = px * qv - py * qu + pu * qy - pv * qx
+    at = now + first_fall(pu * qv - pv * qu, slope, px * qy - py * qx)
     if at == np.inf:
         return at, 3 * t, FLIP
     return at, longest_side(w, t, at)[0], FLIP
