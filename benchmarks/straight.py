@@ -45,7 +45,7 @@ def skeleton_of(area: shapely.Polygon) -> Any:
 
 
 def speed() -> str:
-    """CPU time by family and size, and how many mitred buffers that is in the same run."""
+    """Measure CPU time by family and size, and how many mitred buffers that is in the same run."""
     rows = []
     for family in SHOWN:
         cells = []
@@ -87,7 +87,7 @@ def failures_in(parts: NDArray[np.object_]) -> Counter[str]:
 
 
 def areas() -> str:
-    """Valid areas of each real layer, long or not; how many have no sound skeleton."""
+    """Count the valid areas of each real layer, long or not, and those without a sound skeleton."""
     rows = []
     for name, file, layer in LAYERS:
         if not (FOLDER / file).exists():
