@@ -165,7 +165,8 @@ def meeting(w: Wavefront, e: int, now: float) -> tuple[float, int, int]:
     height = w.nx[k] * cx + w.ny[k] * cy - w.reach[k] - now
     rate = 1.0 - w.nx[k] * w.u[c] - w.ny[k] * w.v[c]
     tau = w.tau[w.tri[e]] + w.tau[w.tri[next_side(e)]]
-    if height < -NEAR and tau < 0.0 and edge_length(w, e, now) <= NEAR * (1.0 - tau):
+    begins = tau < 0.0 and edge_length(w, e, now) <= NEAR * (1.0 - tau)
+    if height < -NEAR and (begins or rate <= 0.0):
         return now, higher_spoke(w, e, now), FLIP
     if rate <= 0.0:
         return np.inf, e, SPLIT
