@@ -27,6 +27,7 @@ from midrib.types import Ints
 __all__ = ["SLACK", "Faces", "faces_of", "ridges_of"]
 
 SLACK = 1e-9  # of the extent, which is 1: by so much a sound skeleton may be off
+ALONG = 1e-6  # along an edge: a node between faces that nearly meet flat is not known better
 SAME = 16.0 * NEAR  # nodes as near as this are one
 TURNS = 2
 
@@ -94,11 +95,12 @@ def faces_of(mesh: Mesh, roof: Roof) -> Faces:
             x, y, t = node[at, 0] - mesh.x[a], node[at, 1] - mesh.y[a], node[at, 2]
             miss = max(miss, abs(dx * y - dy * x - t))
             forth = dx * x + dy * y
-            if i > start[face] and abs(forth - along) > SLACK:
+            if i > start[face] and abs(forth - along) > ALONG:
                 turn = 1 if forth > along else -1
                 turns += 1 if turn != heading and (turns > 0 or turn < 0) else 0
                 heading = turn
-            along = forth
+            if i == start[face] or abs(forth - along) > ALONG:
+                along = forth
             h, leaving[at] = leaving[at], -1
             at = arc[h // 2, 1 - h % 2] if h >= 0 else -1
         is_whole = count - offsets[face] == start[face + 1] - start[face] + 1
