@@ -1,6 +1,7 @@
 """Straight skeletons: how long they take, and on how many real areas they are sound.
 
-``python benchmarks/straight.py speed`` and ``python benchmarks/straight.py areas`` print tables.
+``python benchmarks/straight.py speed`` prints times, ``areas`` what becomes of real layers, and
+``hard`` what becomes of areas on squared paper, where most things happen at once.
 """
 
 import sys
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 import shapely
 from numpy.typing import NDArray
+from shapely import affinity
 
 from families import make
 from midrib.curves.straight_skeleton import straight_skeleton_of
@@ -26,6 +28,12 @@ SHOWN = ("river", "embankment", "waist", "holes", "rect")
 MOST_VERTICES = 5_000
 ENOUGH = 0.3  # seconds of runs, of which the shortest counts
 MOST_RUNS = 50
+ROUNDS = 500
+PLACES = (
+    ("as it is", 0.0, (0.0, 0.0)),
+    ("turned by 30°", 30.0, (0.0, 0.0)),
+    ("turned by 33.7°, at coordinates of 6e6", 33.7, (5e5, 5.8e6)),
+)
 
 
 def shortest(run: Callable[[], Any]) -> float:
@@ -103,9 +111,47 @@ def areas() -> str:
     return markdown(("layer", "areas", "vertices", "failures", "µs a vertex"), rows)
 
 
+def on_squared_paper(rng: np.random.Generator) -> NDArray[np.object_]:
+    """Unite squares, halves of squares, or triangles with whole coordinates."""
+    n, share = int(rng.integers(2, 9)), rng.uniform(0.4, 0.95)
+    cells = [shapely.box(i, j, i + 1, j + 1) for i in range(n) for j in range(n)]
+    halves = [
+        shapely.Polygon([(i, j), (i + 1, j + 1), (i + k, j + 1 - k)])
+        for i in range(n)
+        for j in range(n)
+        for k in (0, 1)
+    ]
+    triangles = shapely.polygons(rng.integers(0, 12, (n, 3, 2)).astype(np.float64))
+    united = [
+        shapely.union_all([cell for cell in cells if rng.random() < share]),
+        shapely.union_all([half for half in halves if rng.random() < share]),
+        shapely.union_all(triangles[shapely.area(triangles) > 0.0]),
+    ]
+    parts = shapely.get_parts(united)
+    found: NDArray[np.object_] = parts[(shapely.get_type_id(parts) == 3) & shapely.is_valid(parts)]
+    return found
+
+
+def hard() -> str:
+    """Count failures where edges are parallel, reflex vertices meet, and all at once."""
+    rng = np.random.default_rng(0)
+    drawn = np.concatenate([on_squared_paper(rng) for _ in range(ROUNDS)])
+    rows = []
+    for name, degrees, origin in PLACES:
+        parts = np.array(
+            [
+                affinity.translate(affinity.rotate(area, degrees, origin=(0, 0)), *origin)
+                for area in drawn
+            ]
+        )
+        parts = parts[shapely.is_valid(parts)]
+        rows.append((name, f"{len(parts):,}", str(failures_in(parts).total())))
+    return markdown(("squared paper", "areas", "failures"), rows)
+
+
 def main() -> None:
     """Print a table."""
-    tables = {"speed": speed, "areas": areas}
+    tables = {"speed": speed, "areas": areas, "hard": hard}
     if len(sys.argv) != 2 or sys.argv[1] not in tables:
         sys.exit(f"usage: {sys.argv[0]} {'|'.join(tables)}")
     print(tables[sys.argv[1]]())
