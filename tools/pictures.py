@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/holes.md.
+"""Draw the pictures of docs/holes.md and docs/straight.md.
 
 python tools/pictures.py
 """
@@ -10,7 +10,10 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon, box
 
+from midrib.curves.straight_skeleton import straight_skeleton_of
 from midrib.figures.draw import draw_collapse
+from midrib.ragged import pack_areas
+from midrib.types import Floats
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 WIDTH = 120.0  # millimetres
@@ -49,6 +52,16 @@ def open_ring() -> Polygon:
     return Polygon(outer.exterior, [inner.exterior])
 
 
+def building() -> Polygon:
+    """Make a building with a wing, a bay and a court."""
+    shell = [
+        (0, 0), (46, 0), (46, 14), (62, 20), (58, 34), (40, 29), (24, 29), (21, 24), (18, 29),
+        (0, 29),
+    ]  # fmt: skip
+    return Polygon(shell, [[(9, 9), (12, 18), (30, 19), (33, 9)]])
+
+
+FACE, FRONT, RIDGE = "#eef1ea", "#9aa58c", "#d62728"
 PAPER: dict[str, Any] = {"centring": "none", "count": 60}
 PICTURES: dict[str, tuple[Polygon, dict[str, Any]]] = {
     "holes-blocked": (river(), {}),
@@ -63,9 +76,47 @@ PICTURES: dict[str, tuple[Polygon, dict[str, Any]]] = {
 }
 
 
+def level(points: Floats, times: Floats, time: float) -> Floats:
+    """Find the piece of the wavefront on a face, between the first and last place at a time."""
+    places = []
+    for i in range(len(points)):
+        if (times[i - 1] > time) != (times[i] > time):
+            share = (time - times[i - 1]) / (times[i] - times[i - 1])
+            places.append(points[i - 1] + share * (points[i] - points[i - 1]))
+    return np.array(places).reshape(-1, 2)
+
+
+def draw_roof(area: Polygon, path: Path) -> None:
+    """Draw the straight skeleton of an area, and its wavefront at some times, as a roof."""
+    import matplotlib.pyplot as plt
+
+    rows, starts = pack_areas(np.array([area], dtype=object)).rings(0)
+    found = straight_skeleton_of(rows, starts)
+    west, south, east, north = area.bounds
+    size = WIDTH / 25.4, WIDTH / 25.4 * (north - south) / (east - west)
+    figure, axes = plt.subplots(figsize=size, layout="constrained")
+    for walk in found.faces:
+        x, y = found.points[walk].T
+        axes.fill(x, y, color=FACE, zorder=0)
+        times = np.linspace(0.0, found.time.max(), 8)[1:-1]
+        for time in times:
+            axes.plot(
+                *level(found.points[walk], found.time[walk], time).T, color=FRONT, linewidth=0.5
+            )
+    for i, j in found.ridges:
+        axes.plot(*found.points[[i, j]].T, color=RIDGE, linewidth=0.9)
+    for ring in (area.exterior, *area.interiors):
+        axes.plot(*shapely.get_coordinates(ring).T, color="black", linewidth=1.1)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    figure.savefig(path)
+    plt.close(figure)
+
+
 def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
+    draw_roof(building(), FOLDER / "straight-skeleton.svg")
     for name, (area, options) in PICTURES.items():
         draw_collapse(area, FOLDER / f"{name}.svg", width=WIDTH, **options)
 

@@ -9,6 +9,7 @@ from shapely import Polygon
 
 from midrib.checks import is_number, shown
 from midrib.curves.graphs import Graph, radii_of
+from midrib.curves.straight_skeleton import straight_skeleton_of
 from midrib.errors import ParameterError, TooManyStationsError
 from midrib.kernels.chordal import chordal_axis
 from midrib.kernels.voronoi import voronoi_inside
@@ -53,7 +54,24 @@ def point_voronoi(*, spacing: float | None = None) -> Axis:
     return find
 
 
-AXES: dict[str, Callable[..., Axis]] = {"chordal-axis": chordal, "point-voronoi": point_voronoi}
+def straight() -> Axis:
+    """Straight skeleton: the bisectors of shrinking edges."""
+
+    def find(coordinates: Floats, starts: Ints, layout: Layout) -> Graph:
+        found = straight_skeleton_of(coordinates[:, :2] * layout.scale, starts)
+        used, edges = np.unique(found.ridges, return_inverse=True)
+        points = found.points[used] / layout.scale
+        radius = radii_of(coordinates, starts, points, layout.scale)
+        return Graph(points, edges.reshape(-1, 2), radius)
+
+    return find
+
+
+AXES: dict[str, Callable[..., Axis]] = {
+    "chordal-axis": chordal,
+    "point-voronoi": point_voronoi,
+    "straight-skeleton": straight,
+}
 
 
 def densified(rings: Floats, starts: Ints, apart: float) -> tuple[Floats, Ints]:

@@ -140,6 +140,15 @@ METHODS = {
             cost="m log m, for m points",
             finder=partial(trunk_finder, "point-voronoi"),
         ),
+        Method(
+            name="straight-skeleton",
+            source="Aichholzer and Aurenhammer 1996",
+            has_branches=True,
+            supports_holes=True,
+            is_exact=True,
+            cost="n log n in practice",
+            finder=partial(trunk_finder, "straight-skeleton"),
+        ),
     )
 }
 
@@ -150,7 +159,7 @@ def methods() -> list[Method]:
     Examples
     --------
     >>> [method.name for method in methods() if method.has_branches]
-    ['chordal-axis', 'point-voronoi']
+    ['chordal-axis', 'point-voronoi', 'straight-skeleton']
     """
     return list(METHODS.values())
 

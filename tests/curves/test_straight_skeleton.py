@@ -1,0 +1,282 @@
+"""The straight skeleton: closed forms, and relations that hold for every roof."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import MultiPoint, Point, Polygon, affinity, box
+
+from midrib import collapse, skeleton
+from midrib.curves.straight_skeleton import StraightSkeleton, straight_skeleton_of, unit_mesh
+from midrib.errors import InvariantError
+from midrib.kernels.roof import faces_of
+from midrib.kernels.straight import straight_skeleton
+from midrib.layout import boundary_of
+from midrib.ragged import pack_areas, rings_of_area
+from midrib.types import Floats
+from tests.shapes import TOUCHING, VALID, rectangle, wedge
+from tests.strategies import areas, polyominoes, with_holes
+from tests.test_real_areas import FOLDER, LAYERS, areas_of
+
+FAR = (5e5, 5.8e6)
+
+
+def roof_of(area: Polygon) -> StraightSkeleton:
+    """Find the straight skeleton of an area."""
+    return straight_skeleton_of(*pack_areas(np.array([area], dtype=object)).rings(0))
+
+
+def faces_in(found: StraightSkeleton) -> list[Polygon]:
+    """The face of each edge."""
+    return [Polygon(found.points[walk]) for walk in found.faces]
+
+
+def lines_in(found: StraightSkeleton) -> Any:
+    """Its ridges."""
+    return shapely.unary_union(shapely.linestrings(found.points[found.ridges]))
+
+
+def size_of(area: Polygon) -> float:
+    """Larger extent."""
+    west, south, east, north = area.bounds
+    return float(max(east - west, north - south))
+
+
+def offset_area(found: StraightSkeleton, time: float) -> float:
+    """Area that the wavefront encloses: of every face what is higher."""
+    total = 0.0
+    for walk in found.faces:
+        p, t = found.points[walk] - found.points[walk[0]], found.time[walk]
+        higher = []
+        for i in range(len(walk)):
+            if (t[i - 1] > time) != (t[i] > time):
+                share = (time - t[i - 1]) / (t[i] - t[i - 1])
+                higher.append(p[i - 1] + share * (p[i] - p[i - 1]))
+            if t[i] > time:
+                higher.append(p[i])
+        if higher:
+            x, y = np.array(higher).T
+            total += float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0
+    return total
+
+
+def nodes_of(found: StraightSkeleton) -> Floats:
+    """Places and times of the nodes inside."""
+    inner = np.unique(found.ridges[found.time[found.ridges] > 0.0])
+    return np.column_stack([found.points[inner], found.time[inner]])
+
+
+@pytest.mark.parametrize(("length", "width"), [(10, 2), (3, 3), (7, 1e-3)])
+def test_rectangle_has_its_ridge(length: float, width: float) -> None:
+    found = nodes_of(roof_of(rectangle(length, width)))
+    half = width / 2
+    expected = [(half, half, half), (length - half, half, half)]
+    assert np.unique(found, axis=0) == pytest.approx(np.unique(expected, axis=0))
+
+
+@pytest.mark.parametrize("n", [3, 4, 5, 8, 17, 64, 360])
+def test_regular_polygon_meets_in_its_centre(n: int) -> None:
+    turn = 2.0 * np.pi * np.arange(n) / n + 0.3
+    found = roof_of(Polygon(np.column_stack([np.cos(turn), np.sin(turn)])))
+    assert nodes_of(found) == pytest.approx(np.array([[0.0, 0.0, np.cos(np.pi / n)]]), abs=1e-9)
+    assert len(found.ridges) == n
+
+
+def test_corner_of_two_arms_in_closed_form() -> None:
+    found = nodes_of(roof_of(VALID["L"]))
+    expected = [(1, 1, 1), (9, 1, 1), (1, 9, 1)]
+    assert np.unique(found.round(9), axis=0).tolist() == sorted(map(list, expected))
+
+
+def test_square_ring_meets_halfway() -> None:
+    found = roof_of(box(0, 0, 10, 10).difference(box(2, 2, 8, 8)))
+    ridge = lines_in(found)
+    assert ridge.covers(box(1, 1, 9, 9).exterior)
+    assert ridge.length == pytest.approx(32 + 8 * np.sqrt(2))
+
+
+@pytest.mark.parametrize("beta", [0.01, 0.5, 2.0, 3.1])
+def test_wedge_meets_in_its_incentre(beta: float) -> None:
+    area = wedge(beta, 5.0)
+    (x, y, time), *others = nodes_of(roof_of(area))
+    assert not others
+    assert time == pytest.approx(2.0 * area.area / area.length)
+    assert np.arctan2(y, x) == pytest.approx(beta / 2)
+
+
+def test_collinear_vertices_change_nothing() -> None:
+    few, many = (lines_in(roof_of(area)) for area in (VALID["L"], VALID["L"].segmentize(0.3)))
+    assert many.hausdorff_distance(few) < 1e-9
+    assert many.length == pytest.approx(few.length)
+
+
+def check_roof(area: Polygon) -> StraightSkeleton:
+    """Faces fill the area, each on its edge, and no node is anywhere but on its planes."""
+    found = roof_of(area)
+    size = size_of(area)
+    faces = faces_in(found)
+    assert sum(face.area for face in faces) == pytest.approx(area.area, abs=1e-9 * size**2)
+    assert shapely.union_all(shapely.buffer(faces, 1e-9 * size)).area == pytest.approx(
+        area.area, abs=1e-7 * size**2
+    )
+    for walk in found.faces:
+        a, b = found.points[walk[-1]], found.points[walk[0]]
+        (dx, dy), (x, y) = (b - a) / np.hypot(*(b - a)), (found.points[walk] - a).T
+        assert np.abs(dx * y - dy * x - found.time[walk]).max() < 1e-9 * size
+    return found
+
+
+@pytest.mark.parametrize("name", sorted(VALID))
+def test_every_named_area_has_a_roof(name: str) -> None:
+    check_roof(VALID[name])
+
+
+@pytest.mark.parametrize("name", sorted(TOUCHING))
+def test_rings_that_touch_have_a_roof(name: str) -> None:
+    check_roof(TOUCHING[name])
+
+
+@settings(max_examples=60)
+@given(area=st.one_of(areas, with_holes()))
+def test_random_areas_have_a_roof(area: Polygon) -> None:
+    check_roof(area)
+
+
+@settings(max_examples=100)
+@given(kept=st.lists(st.booleans(), min_size=50, max_size=50), angle=st.sampled_from([0.0, 30.0]))
+def test_halves_of_squares_have_a_roof(kept: list[bool], angle: float) -> None:
+    """On squared paper reflex vertices meet head-on, and several at a time."""
+    halves = []
+    for i, keep in enumerate(kept):
+        x, y = divmod(i // 2, 5)
+        corner = (x + 1, y) if i % 2 else (x, y + 1)
+        if keep:
+            halves.append(Polygon([(x, y), (x + 1, y + 1), corner]))
+    for area in shapely.get_parts(shapely.union_all(halves)):
+        check_roof(affinity.rotate(area, angle, origin=(0, 0)))
+
+
+@settings(max_examples=60)
+@given(area=polyominoes(), angle=st.sampled_from([0.0, 90.0, 30.0]))
+def test_time_is_the_largest_coordinate_distance_among_right_angles(
+    area: Polygon, angle: float
+) -> None:
+    """Between axis-parallel edges mitred offsets are erosions by squares."""
+    found = roof_of(affinity.rotate(area, angle, origin=(0, 0)))
+    back = MultiPoint(found.points)
+    points = shapely.get_coordinates(affinity.rotate(back, -angle, origin=(0, 0)))
+    ends = np.concatenate(
+        [
+            np.lib.stride_tricks.sliding_window_view(shapely.get_coordinates(ring), 2, axis=0)
+            for ring in (area.exterior, *area.interiors)
+        ]
+    )
+    low, high = ends.min(axis=2), ends.max(axis=2)
+    away = np.maximum(np.maximum(low - points[:, None], points[:, None] - high), 0.0)
+    assert away.max(axis=2).min(axis=1) == pytest.approx(found.time, abs=1e-9)
+
+
+@settings(max_examples=25)
+@given(area=st.one_of(areas, with_holes()), share=st.floats(0.1, 0.8))
+def test_offsets_are_mitred_buffers_in_small_steps(area: Polygon, share: float) -> None:
+    """Before anything happens one buffer is a step; after it, the limit of small steps is."""
+    found = roof_of(area)
+    time, steps = share * float(found.time.max()), 200
+    rest: Any = area
+    for _ in range(steps):
+        rest = rest.buffer(-time / steps, join_style="mitre", mitre_limit=1e6)
+    slack = area.length * time / steps / 4.0
+    assert offset_area(found, time) == pytest.approx(rest.area, abs=slack)
+
+
+@given(area=areas)
+@settings(max_examples=25)
+def test_first_offset_is_a_mitred_buffer(area: Polygon) -> None:
+    found = roof_of(area)
+    first = float(found.time[found.time > 0.0].min())
+    for share in (0.3, 0.9):
+        rest = area.buffer(-share * first, join_style="mitre", mitre_limit=1e6)
+        expected = pytest.approx(rest.area, abs=1e-9 * size_of(area) ** 2)
+        assert offset_area(found, share * first) == expected
+
+
+@settings(max_examples=40)
+@given(area=st.one_of(areas, with_holes()), turn=st.integers(0, 5), angle=st.floats(0.0, 360.0))
+def test_rings_may_start_anywhere_and_areas_lie_anywhere(
+    area: Polygon, turn: int, angle: float
+) -> None:
+    found = roof_of(area)
+    ring = shapely.get_coordinates(area.exterior)[:-1]
+    other = Polygon(np.roll(ring, turn, axis=0)[::-1], area.interiors)
+    moved = affinity.translate(affinity.rotate(area, angle, origin=(0, 0)), *FAR)
+    time = 0.4 * float(found.time.max())
+    slack = size_of(area) * area.length
+    assert offset_area(roof_of(other), time) == pytest.approx(
+        offset_area(found, time), abs=1e-9 * slack
+    )
+    if moved.is_valid:
+        assert offset_area(roof_of(moved), time) == pytest.approx(
+            offset_area(found, time), abs=1e-6 * slack
+        )
+
+
+@pytest.mark.parametrize("power", [-150, 150])
+def test_doubling_is_exact(power: int) -> None:
+    area = VALID["comb"]
+    found, larger = roof_of(area), roof_of(affinity.scale(area, *[2.0**power] * 2, origin=(0, 0)))
+    assert (larger.points == found.points * 2.0**power).all()
+    assert (larger.time == found.time * 2.0**power).all()
+
+
+@pytest.mark.parametrize("fault", ["node", "time", "arc", "lost", "crossed"])
+def test_unsound_roofs_are_rejected(fault: str) -> None:
+    mesh, _, _ = unit_mesh(boundary_of(*rings_of_area(VALID["comb"])).mesh)
+    roof = straight_skeleton(mesh)
+    assert faces_of(mesh, roof).is_sound
+    n = np.count_nonzero(mesh.twin < 0)
+    node, arc = roof.node.copy(), roof.arc.copy()
+    if fault == "node":
+        node[n, 0] += 1e-6
+    elif fault == "time":
+        node[n, 2] += 1e-6
+    elif fault == "arc":
+        arc[0, 1] = node.shape[0] - 1
+    elif fault == "lost":
+        arc = arc[:-1]
+    else:
+        arc[0, 2], arc[1, 2] = arc[1, 2], arc[0, 2]
+    assert not faces_of(mesh, roof._replace(node=node, arc=arc)).is_sound
+
+
+def test_unsound_skeletons_raise(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = "midrib.curves.straight_skeleton"
+    monkeypatch.setattr(
+        f"{module}.faces_of", lambda mesh, roof: faces_of(mesh, roof)._replace(is_sound=False)
+    )
+    with pytest.raises(InvariantError, match="straight skeleton of 4 vertices"):
+        roof_of(rectangle(3, 1))
+
+
+def test_skeleton_and_trunk_come_from_it() -> None:
+    area = rectangle(10, 2)
+    found = skeleton(area, method="straight-skeleton")
+    assert found.radius == pytest.approx(
+        shapely.distance(shapely.points(found.points), area.boundary)
+    )
+    line = collapse(area, method="straight-skeleton")
+    assert line.equals(found.trunk)
+    assert [Point(p) for p in (line.coords[0], line.coords[-1])] == [Point(0, 1), Point(10, 1)]
+
+
+@pytest.mark.shared
+@pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
+@pytest.mark.parametrize(("file", "layer"), LAYERS)
+def test_real_areas_have_a_roof(file: str, layer: str | None) -> None:
+    """Those that are not sound raise."""
+    parts = shapely.get_parts(areas_of(file, layer).to_numpy())
+    for area in shapely.force_2d(parts[shapely.is_valid(parts)]):
+        if shapely.get_num_coordinates(area) <= 5000:
+            roof_of(area)
