@@ -251,6 +251,21 @@ def test_unsound_roofs_are_rejected(fault: str) -> None:
     assert not faces_of(mesh, roof._replace(node=node, arc=arc)).is_sound
 
 
+def test_folded_faces_are_rejected() -> None:
+    """A node moved along a flat ridge past its neighbour is still on all of its planes."""
+    area = Polygon([*((x, 0) for x in range(17)), (16, 2), (0, 2)])
+    mesh, _, _ = unit_mesh(boundary_of(*rings_of_area(area)).mesh)
+    roof = straight_skeleton(mesh)
+    x, y = roof.node[:, 0] - mesh.x.min(), roof.node[:, 1] - mesh.y.min()
+    folded = np.hypot(x - 8 / 16, y - 1 / 16) < 1e-9
+    node = roof.node.copy()
+    node[np.flatnonzero(folded)[0], 0] += 3.5 / 16
+    found = faces_of(mesh, roof._replace(node=node))
+    assert folded.any()
+    assert found.miss < 1e-9
+    assert not found.is_sound
+
+
 def test_unsound_skeletons_raise(monkeypatch: pytest.MonkeyPatch) -> None:
     module = "midrib.curves.straight_skeleton"
     monkeypatch.setattr(

@@ -86,7 +86,7 @@ def faces_of(mesh: Mesh, roof: Roof) -> Faces:
             leaving[arc[h // 2, h % 2]] = h
             if h % 2 == 0 and arc[h // 2, 0] < faces:
                 at = arc[h // 2, 0]
-        turns, heading, along = 0, -1, 0.0
+        turns, heading, along = 0, 1, 0.0
         for i in range(start[face], start[face + 1] + 1):
             if at < 0:
                 break
@@ -97,7 +97,7 @@ def faces_of(mesh: Mesh, roof: Roof) -> Faces:
             forth = dx * x + dy * y
             if i > start[face] and abs(forth - along) > ALONG:
                 turn = 1 if forth > along else -1
-                turns += 1 if turn != heading and (turns > 0 or turn < 0) else 0
+                turns += 1 if turn != heading else 0
                 heading = turn
             if i == start[face] or abs(forth - along) > ALONG:
                 along = forth
