@@ -97,8 +97,7 @@ def test_comparisons_are_drawn(ending: str, tmp_path: Path) -> None:
         "point-voronoi",
         "all",
     ]
-    legend = figure.axes[-1].get_legend()
-    assert legend is not None
+    (legend,) = figure.legends
     assert [text.get_text() for text in legend.get_texts()] == ["minimal-radii", "chordal-axis"]
 
 

@@ -10,8 +10,11 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon, box
 
+from midrib.comparison import compare
 from midrib.curves.straight_skeleton import straight_skeleton_of
+from midrib.figures.comparison import draw_comparison
 from midrib.figures.draw import draw_collapse
+from midrib.figures.paper import save
 from midrib.ragged import pack_areas
 from midrib.types import Floats
 
@@ -109,7 +112,7 @@ def draw_roof(area: Polygon, path: Path) -> None:
         axes.plot(*shapely.get_coordinates(ring).T, color="black", linewidth=1.1)
     axes.set_aspect("equal")
     axes.axis("off")
-    figure.savefig(path)
+    save(figure, path)
     plt.close(figure)
 
 
@@ -117,6 +120,7 @@ def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
     draw_roof(building(), FOLDER / "straight-skeleton.svg")
+    draw_comparison(compare(river()), FOLDER / "methods.svg", width=2.0 * WIDTH)
     for name, (area, options) in PICTURES.items():
         draw_collapse(area, FOLDER / f"{name}.svg", width=WIDTH, **options)
 

@@ -54,7 +54,7 @@ OF_SLOPES = {"hatch"}  # commands that take slopes: see test_hatch.py
 
 def test_the_table_has_every_command() -> None:
     names = {command.name or command.callback.__name__ for command in app.registered_commands}  # type: ignore[union-attr]
-    assert names == set(COMMANDS) | OF_SLOPES
+    assert names == set(COMMANDS) | OF_SLOPES | {"compare"}
 
 
 @pytest.mark.parametrize("ending", ["gpkg", "parquet", "geojson"])
@@ -280,7 +280,14 @@ def test_every_rule_for_ends_runs(
 def test_methods_are_listed(midrib: Runner) -> None:
     outcome = midrib("methods")
     assert outcome.code == 0
-    assert outcome.out.splitlines()[0].split() == ["name", "source", "holes", "exact", "cost"]
+    assert outcome.out.splitlines()[0].split() == [
+        "name",
+        "source",
+        "branches",
+        "holes",
+        "exact",
+        "cost",
+    ]
     assert ["minimal-radii", "Buczek", "2017"] in [
         line.split()[:3] for line in outcome.out.splitlines()
     ]

@@ -7,8 +7,10 @@ import typer
 from midrib import __version__
 from midrib.cli.check import check
 from midrib.cli.collapse import collapse
+from midrib.cli.compare import compare
 from midrib.cli.hatch import hatch
 from midrib.cli.profile import profile
+from midrib.cli.shown import show
 
 __all__ = ["app"]
 
@@ -42,6 +44,15 @@ app.command(
     epilog="Examples:\n\nmidrib profile rivers.gpkg widths.csv --spacing 10m --id name\n\n"
     "midrib profile rivers.gpkg stations.gpkg --figure widths.svg",
 )(profile)
+app.command(
+    help="Compare the lines of several methods in one area: a figure and a table.\n\n"
+    "The table: vertices, length, how far off the middle (centredness), turning, how far from the "
+    "line of the first method, CPU time. Lengths are in units of the CRS, metres if it is "
+    "geographic.\n\n"
+    "Exit code 0: done; 1: a method has no line, the reason is in the table; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib compare rivers.gpkg odra.html --feature name=Odra\n\n"
+    "midrib compare roads.gpkg one.svg --feature 17 --methods minimal-radii,straight-skeleton",
+)(compare)
 app.command(
     help="Check slopes before they are hatched: a table of what is wrong with them, and where.\n\n"
     "refused: no slope, for want of a top, an area or good coordinates; swapped: the top is lower "
@@ -91,9 +102,10 @@ def methods() -> None:
     """List the methods that collapse areas: name, source, what each can do and costs."""
     import midrib
 
-    rows: list[tuple[str, ...]] = [("name", "source", "holes", "exact", "cost")]
+    rows: list[tuple[str, ...]] = [("name", "source", "branches", "holes", "exact", "cost")]
     for method in midrib.methods():
-        able = ("yes" if it else "no" for it in (method.supports_holes, method.is_exact))
+        flags = method.has_branches, method.supports_holes, method.is_exact
+        able = ("yes" if flag else "no" for flag in flags)
         rows.append((method.name, method.source, *able, method.cost))
     show(rows)
 
@@ -108,11 +120,3 @@ def standards() -> None:
         texts = (standard.name, standard.symbol, standard.confidence)
         rows.append((*texts, ", ".join(standard.kinds), standard.source))
     show(rows)
-
-
-def show(rows: list[tuple[str, ...]]) -> None:
-    """Print a table, its heading first."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    for row in rows:
-        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
-        typer.echo("  ".join(cells).rstrip())

@@ -16,6 +16,7 @@ __all__ = [
     "CentringOption",
     "Channel",
     "ChannelOption",
+    "ComparisonOut",
     "Connect",
     "Count",
     "DrawingOut",
@@ -48,7 +49,9 @@ __all__ = [
     "Mean",
     "MeanOption",
     "Method",
+    "Methods",
     "Offset",
+    "OneFeature",
     "OutLayer",
     "Overwrite",
     "PaperSize",
@@ -196,6 +199,15 @@ TableOut: TypeAlias = Annotated[
     ),
 ]
 
+ComparisonOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the comparison: .svg, .png or .pdf for a figure, .html for a page with the "
+        "figure and a table to be sorted, .csv for the table.",
+    ),
+]
+
 # Which features
 
 Layer: TypeAlias = Annotated[
@@ -207,6 +219,15 @@ Main: TypeAlias = Annotated[
         metavar="LAYER[:ID]|FIELD",
         help="Directional polylines, whose side of the area the line follows: a layer of IN "
         "with lines, matched by place or by a common field ID; or a field with WKT or hex WKB.",
+    ),
+]
+
+OneFeature: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="N|FIELD=VALUE",
+        help="The feature: its number in the file, from 0, or the value of a field; needed if "
+        "there are several.",
     ),
 ]
 
@@ -291,6 +312,10 @@ Identifier: TypeAlias = Annotated[
 
 # How the line is made
 
+Methods: TypeAlias = Annotated[
+    str | None,
+    of_line(metavar="NAME,NAME", help="Some of [bold]midrib methods[/], the first is the measure."),
+]
 Method: TypeAlias = Annotated[str, of_line(metavar="NAME", help="One of [bold]midrib methods[/].")]
 Spacing: TypeAlias = Annotated[
     str | None,

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["COLOURS", "draw_comparison"]
 
 COLOURS = ("#111111", "#d1495b", "#2e86ab", "#1e9e58", "#e08a00", "#8e44ad", "#00a3b4", "#7a5c3e")
-TITLE, GAP, LEGEND_ROW = 7.0, 4.0, 5.0  # millimetres
+TITLE, GAP, FOOTER = 7.0, 4.0, 6.0  # millimetres
 FLAT = 2.2  # width over height from which on panels stand below each other
 
 
@@ -67,7 +67,7 @@ def draw_comparison(
     n_rows = -(-count // n_columns)
     panel = (width - (n_columns + 1) * GAP) / n_columns
     tall = panel * extent[1] / extent[0]
-    height = n_rows * (tall + TITLE) + GAP
+    height = n_rows * (tall + TITLE) + GAP + FOOTER
     figure = Figure(figsize=(width / INCH, height / INCH), facecolor="white")
     for k in range(count):
         left = GAP + k % n_columns * (panel + GAP)
@@ -84,6 +84,16 @@ def draw_comparison(
             draw_row(axes, comparison, rows[k])
         else:
             draw_all(axes, rows)
+    figure.legend(
+        loc="lower left",
+        bbox_to_anchor=(GAP / width, 1.0 / height),
+        ncols=len(rows),
+        frameon=False,
+        fontsize=FONT,
+        labelcolor=TEXT,
+        handlelength=1.4,
+        borderpad=0.0,
+    )
     if path is not None:
         save(figure, Path(path))
     return figure
@@ -117,7 +127,7 @@ def draw_row(axes: "Axes", comparison: "Comparison", row: "Compared") -> None:
 
 
 def draw_all(axes: "Axes", rows: "list[Compared]") -> None:
-    """Draw all lines, and say whose they are."""
+    """Draw all lines, named for the legend."""
     title(axes, "all", "")
     for row, colour in zip(rows, colours_of(rows), strict=True):
         if row.line is not None:
@@ -130,7 +140,6 @@ def draw_all(axes: "Axes", rows: "list[Compared]") -> None:
                 scalex=False,
                 scaley=False,
             )
-    axes.legend(frameon=False, fontsize=FONT, labelcolor=TEXT, loc="best", handlelength=1.4)
 
 
 def colours_of(rows: "list[Compared]") -> list[str]:
