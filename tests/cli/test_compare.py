@@ -10,7 +10,7 @@ import midrib as library
 from tests.cli.commands import Runner
 from tests.formats.layers import write
 
-AREAS = [
+AREAS: list[str | None] = [
     "POLYGON ((0 0, 40 0, 40 5, 0 4, 0 0))",
     "POLYGON ((0 9, 9 9, 9 60, 5 60, 5 14, 0 14, 0 9))",
 ]
@@ -53,7 +53,7 @@ def test_a_table_has_every_digit(source: Path, tmp_path: Path, midrib: Runner) -
     with out.open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     lengths = {row["method"]: float(row["length"]) for row in rows}
-    area = shapely.from_wkt(AREAS[0])
+    area = shapely.from_wkt(str(AREAS[0]))
     assert lengths == pytest.approx(
         {m: library.collapse(area, m).length for m in lengths}, rel=1e-12
     )
