@@ -117,6 +117,15 @@ METHODS = {
             finder=mean_curve_finder,
         ),
         Method(
+            name="medial-axis",
+            source="Lee 1982",
+            has_branches=True,
+            supports_holes=True,
+            is_exact=True,
+            cost="n log n",
+            finder=partial(trunk_finder, "medial-axis"),
+        ),
+        Method(
             name="chordal-axis",
             source="Bader and Weibel 1997",
             has_branches=True,
@@ -144,7 +153,7 @@ def methods() -> list[Method]:
     Examples
     --------
     >>> [method.name for method in methods() if method.has_branches]
-    ['chordal-axis', 'point-voronoi']
+    ['medial-axis', 'chordal-axis', 'point-voronoi']
     """
     return list(METHODS.values())
 
