@@ -23,7 +23,7 @@ import numpy as np
 from midrib.kernels.clearance import nearest_on_segment
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.walls import NO_CORNER, Walls
+from midrib.kernels.walls import Walls
 
 __all__ = ["BETWEEN_CORNERS", "BETWEEN_WALLS", "PARABOLA", "Bisector", "bisector", "centre",
            "contact", "leaves", "meets_point", "meets_wall"]  # fmt: skip

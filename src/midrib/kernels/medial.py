@@ -150,18 +150,31 @@ def first_met(
 
 
 @njit(borrows=True)
+def ahead_of(w: Walls, place: int, x: float, y: float) -> float:
+    """How far (x, y) is ahead of where a wall starts, in the wall's direction."""
+    return (x - w.x[place]) * w.ux[place] + (y - w.y[place]) * w.uy[place]
+
+
+@njit(borrows=True)
 def site_of(w: Walls, wall: int, x: float, y: float) -> int:
-    """Return the site of a wall that a disc about (x, y) touches: itself, or a corner at an end."""
-    n = w.x.size
-    along = (x - w.x[wall]) * w.ux[wall] + (y - w.y[wall]) * w.uy[wall]
-    corner = NO_CORNER
-    if along <= 0.0:
+    """Return the site of a wall that a disc about (x, y) touches.
+
+    At an end that is the corner there, or, where rounding has met the one for the other, the other
+    wall of this corner.
+    """
+    if ahead_of(w, wall, x, y) <= 0.0:
         corner = w.corner[wall]
+    elif ahead_of(w, wall, x, y) >= ahead_of(w, wall, w.x[wall + 1], w.y[wall + 1]):
+        corner = w.corner[wall + 1]
     else:
-        end = wall + 1
-        if (x - w.x[end]) * w.ux[wall] + (y - w.y[end]) * w.uy[wall] >= 0.0:
-            corner = w.corner[end]
-    return wall if corner == NO_CORNER else n + corner
+        return wall
+    if corner == NO_CORNER:
+        return wall
+    if ahead_of(w, corner, x, y) > 0.0:
+        return corner
+    before = w.preceding[corner]
+    past_end = ahead_of(w, before, x, y) - ahead_of(w, before, w.x[corner], w.y[corner])
+    return before if past_end < 0.0 else w.x.size + corner
 
 
 @njit(borrows=True)

@@ -19,7 +19,6 @@ from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.predicates import orient
-from midrib.kernels.triangulation import next_side
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["NO_CORNER", "Walls", "sharpest", "walls_of"]
@@ -94,16 +93,16 @@ def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
     corner, loop, first = np.full(n, NO_CORNER), np.empty(n, np.intp), np.empty(loops, np.intp)
     is_wall, is_convex = np.ones(n, np.bool_), np.zeros(n, np.bool_)
     origin = mesh.tri[side[0]]
-    for l in range(loops):
-        first[l], last = starts[l] + l, starts[l + 1] + l - 1
-        for k in range(first[l], last + 2):
-            e = side[starts[l] if k > last else k - l]
-            vertex[k], loop[k] = mesh.tri[e], l
+    for ring in range(loops):
+        first[ring], last = starts[ring] + ring, starts[ring + 1] + ring - 1
+        for k in range(first[ring], last + 2):
+            e = side[starts[ring] if k > last else k - ring]
+            vertex[k], loop[k] = mesh.tri[e], ring
             x[k] = (mesh.x[vertex[k]] - mesh.x[origin]) * scale_x
             y[k] = (mesh.y[vertex[k]] - mesh.y[origin]) * scale_y
             following[k], preceding[k] = k + 1, k - 1
-        following[last], preceding[first[l]], is_wall[last + 1] = first[l], last, False
-        for k in range(first[l], last + 1):
+        following[last], preceding[first[ring]], is_wall[last + 1] = first[ring], last, False
+        for k in range(first[ring], last + 1):
             dx, dy = x[k + 1] - x[k], y[k + 1] - y[k]
             size = length(dx, dy)
             ux[k], uy[k] = dx / size, dy / size
