@@ -15,7 +15,8 @@ before, at the place where the disc touches it, and the question is asked again 
 and the two banks between them close in a pocket, so nothing but a whole loop can be missed: a
 point of each loop that has not been touched yet is held against the discs in between.
 
-Ties need no care: of four sites that one disc touches, two are met in turn at the same place.
+Of four sites that one disc touches, two are met in turn at the same place. Several loops that meet
+in such ties, as in a lattice of equal holes, may end in a failure, which is reported.
 """
 
 from typing import NamedTuple
@@ -99,7 +100,7 @@ def put_tip(a: Axis, w: Walls, wall: int) -> int:
 
 
 @njit(borrows=True)
-def put_piece(a: Axis, w: Walls, b: Bisector, sites: tuple[int, int], ends: tuple[int, int],
+def put_piece(a: Axis, b: Bisector, sites: tuple[int, int], ends: tuple[int, int],
               stop: float) -> None:  # fmt: skip
     """Join two nodes."""
     if ends[0] == ends[1]:
@@ -225,6 +226,27 @@ def touches_there(w: Walls, a: Axis, i: int, site: int, other: int, back: float)
 
 
 @njit(borrows=True)
+def make_room(a: Axis, j: int) -> None:
+    """Move the branches from place j on up by one: they are to be gone before the new one."""
+    for k in range(a.count[BRANCHES], j, -1):
+        for c in range(3):
+            a.branch[k, c], a.disc[k, c] = a.branch[k - 1, c], a.disc[k - 1, c]
+    for place in range(a.count[OPEN]):
+        a.open[place] += a.open[place] >= j
+    a.count[BRANCHES] += 1
+
+
+@njit(borrows=True)
+def close(a: Axis, i: int) -> None:
+    """Take branch i off the open ones, now that it is gone itself."""
+    for place in range(a.count[OPEN]):
+        if a.open[place] == i:
+            a.count[OPEN] -= 1
+            a.open[place] = a.open[a.count[OPEN]]
+            break
+
+
+@njit(borrows=True)
 def come_back(w: Walls, a: Axis, place: int, sites: tuple[int, int], back: float) -> int:
     """Take a way off an open branch that it comes back through; what is beside it stays open."""
     i = a.open[place]
@@ -239,7 +261,10 @@ def come_back(w: Walls, a: Axis, place: int, sites: tuple[int, int], back: float
             if a.branch[i, 0] < 0:
                 a.branch[i, 0], a.branch[i, 1], a.branch[i, 2] = node, one, other
             else:
-                j = put_branch(a, node, one, other, x, y, radius)
+                j = i + 1
+                make_room(a, j)
+                a.branch[j, 0], a.branch[j, 1], a.branch[j, 2] = node, one, other
+                a.disc[j, 0], a.disc[j, 1], a.disc[j, 2] = x, y, radius
             a.open[a.count[OPEN]] = j
             a.count[OPEN] += 1
     return node
@@ -301,11 +326,11 @@ def roll(w: Walls, a: Axis, i: int, extent: float) -> bool:
         if ahead >= 0:
             place = open_branch(w, a, sites, x, y, radius, back)
             if place >= 0:
-                put_piece(a, w, b, sites, (node, come_back(w, a, place, sites, back)), stop)
+                put_piece(a, b, sites, (node, come_back(w, a, place, sites, back)), stop)
                 return True
         last = node
         node = put_tip(a, w, left) if is_tip else put_node(a, x, y, radius, last, SAME * extent)
-        put_piece(a, w, b, sites, (last, node), stop)
+        put_piece(a, b, sites, (last, node), stop)
         if is_tip:
             return True
         if ahead >= 0:
@@ -345,11 +370,11 @@ def medial_axis(
     axis transformation of a planar shape, IEEE PAMI 4, 1982 (its straight pieces and arcs).
     """
     w = walls_of(mesh, scale_x, scale_y)
-    n, loops, room = w.x.size, w.first.size, PARTS * w.x.size + 64
+    loops, room = w.first.size, PARTS * w.x.size + 64
     a = Axis(
-        np.empty((room, 3)), np.empty(room, np.intp), np.empty((room, 4), np.intp), np.empty((room, 2)),
-        np.empty((room, 3), np.intp), np.empty((room, 3)), np.empty(room, np.intp),
-        np.arange(loops), np.zeros(5, np.intp),
+        np.empty((room, 3)), np.empty(room, np.intp), np.empty((room, 4), np.intp),
+        np.empty((room, 2)), np.empty((room, 3), np.intp), np.empty((room, 3)),
+        np.empty(room, np.intp), np.arange(loops), np.zeros(5, np.intp),
     )  # fmt: skip
     low_x, low_y, high_x, high_y = w.boxes[1, 0], w.boxes[1, 1], w.boxes[1, 2], w.boxes[1, 3]
     extent = length(high_x - low_x, high_y - low_y)
@@ -359,10 +384,15 @@ def medial_axis(
     node = put_tip(a, w, start)
     put_branch(a, node, w.preceding[start], start, w.x[start], w.y[start], 0.0)
     is_done = True
-    while is_done and a.count[BRANCHES] > 0:
+    for _ in range(room):
+        if not is_done or a.count[BRANCHES] == 0:
+            break
         a.count[BRANCHES] -= 1
-        if a.branch[a.count[BRANCHES], 0] >= 0:
-            is_done = has_room(a) and roll(w, a, a.count[BRANCHES], extent)
+        i = a.count[BRANCHES]
+        if a.branch[i, 0] >= 0:
+            close(a, i)
+            is_done = has_room(a) and roll(w, a, i, extent)
+    is_done = is_done and a.count[BRANCHES] == 0
     is_done = is_done and a.count[UNSEEN] == 0 and a.count[OPEN] == 0
     points, radius, edges = drawn(w, a, tolerance)
     for i in range(points.shape[0]):
