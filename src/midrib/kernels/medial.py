@@ -54,7 +54,7 @@ MET_NOTHING = -1
 
 
 class Axis(NamedTuple):
-    """What has been found so far; ``count`` has the numbers of nodes, pieces, branches, open ones.
+    """What has been found so far; ``numbers`` has how many there are of nodes, pieces, branches, open ones.
 
     node        (., 3) x, y, radius
     tip         vertex of the mesh that a node is at, or -1
@@ -74,7 +74,7 @@ class Axis(NamedTuple):
     disc: Floats
     open: Ints
     unseen: Ints
-    count: Ints
+    numbers: Ints
 
 
 NODES, PIECES, BRANCHES, OPEN, UNSEEN = 0, 1, 2, 3, 4
@@ -85,9 +85,9 @@ def put_node(a: Axis, x: float, y: float, radius: float, last: int, same: float)
     """Return the node at a place: the last one if that is there, else a new one."""
     if last >= 0 and length(a.node[last, 0] - x, a.node[last, 1] - y) <= same:
         return last
-    i = a.count[NODES]
+    i = a.numbers[NODES]
     a.node[i, 0], a.node[i, 1], a.node[i, 2], a.tip[i] = x, y, radius, -1
-    a.count[NODES] = i + 1
+    a.numbers[NODES] = i + 1
     return i
 
 
@@ -105,22 +105,22 @@ def put_piece(a: Axis, b: Bisector, sites: tuple[int, int], ends: tuple[int, int
     """Join two nodes."""
     if ends[0] == ends[1]:
         return
-    i = a.count[PIECES]
+    i = a.numbers[PIECES]
     a.piece[i, 0], a.piece[i, 1], a.piece[i, 2], a.piece[i, 3] = ends[0], ends[1], -1, -1
     if b.kind == PARABOLA:  # seen with its wall on the left, t runs the other way
         left, right = sites
         a.piece[i, 2], a.piece[i, 3] = (right, left) if b.g > 0.0 else (left, right)
         a.arc[i, 0], a.arc[i, 1] = -b.g * b.t, -b.g * stop
-    a.count[PIECES] = i + 1
+    a.numbers[PIECES] = i + 1
 
 
 @njit(borrows=True)
 def put_branch(a: Axis, node: int, left: int, right: int, x: float, y: float, radius: float) -> int:
     """Remember a way that is to be gone."""
-    i = a.count[BRANCHES]
+    i = a.numbers[BRANCHES]
     a.branch[i, 0], a.branch[i, 1], a.branch[i, 2] = node, left, right
     a.disc[i, 0], a.disc[i, 1], a.disc[i, 2] = x, y, radius
-    a.count[BRANCHES] = i + 1
+    a.numbers[BRANCHES] = i + 1
     return i
 
 
@@ -141,7 +141,7 @@ def first_met(
             if stop > b.t:
                 continue
         before = np.inf
-        for i in range(a.count[UNSEEN]):
+        for i in range(a.numbers[UNSEEN]):
             k = w.first[a.unseen[i]]
             before = min(before, meets_point(b, w.x[k], w.y[k], stop, depth))
         if before == np.inf:
@@ -206,7 +206,7 @@ def open_branch(
     w: Walls, a: Axis, sites: tuple[int, int], x: float, y: float, radius: float, back: float
 ) -> int:
     """Return the place among the open branches of the one that a way comes back through, or -1."""
-    for place in range(a.count[OPEN]):
+    for place in range(a.numbers[OPEN]):
         i = a.open[place]
         if length(a.disc[i, 0] - x, a.disc[i, 1] - y) <= back:
             lx, ly = contact(w, sites[0], x, y, radius)
@@ -228,21 +228,21 @@ def touches_there(w: Walls, a: Axis, i: int, site: int, other: int, back: float)
 @njit(borrows=True)
 def make_room(a: Axis, j: int) -> None:
     """Move the branches from place j on up by one: they are to be gone before the new one."""
-    for k in range(a.count[BRANCHES], j, -1):
+    for k in range(a.numbers[BRANCHES], j, -1):
         for c in range(3):
             a.branch[k, c], a.disc[k, c] = a.branch[k - 1, c], a.disc[k - 1, c]
-    for place in range(a.count[OPEN]):
+    for place in range(a.numbers[OPEN]):
         a.open[place] += a.open[place] >= j
-    a.count[BRANCHES] += 1
+    a.numbers[BRANCHES] += 1
 
 
 @njit(borrows=True)
 def close(a: Axis, i: int) -> None:
     """Take branch i off the open ones, now that it is gone itself."""
-    for place in range(a.count[OPEN]):
+    for place in range(a.numbers[OPEN]):
         if a.open[place] == i:
-            a.count[OPEN] -= 1
-            a.open[place] = a.open[a.count[OPEN]]
+            a.numbers[OPEN] -= 1
+            a.open[place] = a.open[a.numbers[OPEN]]
             break
 
 
@@ -252,8 +252,8 @@ def come_back(w: Walls, a: Axis, place: int, sites: tuple[int, int], back: float
     i = a.open[place]
     node, left, right = a.branch[i, 0], a.branch[i, 1], a.branch[i, 2]
     a.branch[i, 0] = -1
-    a.count[OPEN] -= 1
-    a.open[place] = a.open[a.count[OPEN]]
+    a.numbers[OPEN] -= 1
+    a.open[place] = a.open[a.numbers[OPEN]]
     x, y, radius = a.disc[i, 0], a.disc[i, 1], a.disc[i, 2]
     for one, other in ((left, sites[1]), (sites[0], right)):
         if not touches_there(w, a, i, one, other, back):
@@ -265,8 +265,8 @@ def come_back(w: Walls, a: Axis, place: int, sites: tuple[int, int], back: float
                 make_room(a, j)
                 a.branch[j, 0], a.branch[j, 1], a.branch[j, 2] = node, one, other
                 a.disc[j, 0], a.disc[j, 1], a.disc[j, 2] = x, y, radius
-            a.open[a.count[OPEN]] = j
-            a.count[OPEN] += 1
+            a.open[a.numbers[OPEN]] = j
+            a.numbers[OPEN] += 1
     return node
 
 
@@ -278,12 +278,12 @@ def fork(w: Walls, a: Axis, node: int, sites: tuple[int, int], ahead: int, x: fl
     loop = w.loop[ahead if ahead < n else ahead - n]
     right = put_branch(a, node, ahead, sites[1], x, y, radius)
     put_branch(a, node, sites[0], ahead, x, y, radius)
-    for i in range(a.count[UNSEEN]):
+    for i in range(a.numbers[UNSEEN]):
         if a.unseen[i] == loop:
-            a.count[UNSEEN] -= 1
-            a.unseen[i] = a.unseen[a.count[UNSEEN]]
-            a.open[a.count[OPEN]] = right
-            a.count[OPEN] += 1
+            a.numbers[UNSEEN] -= 1
+            a.unseen[i] = a.unseen[a.numbers[UNSEEN]]
+            a.open[a.numbers[OPEN]] = right
+            a.numbers[OPEN] += 1
             break
 
 
@@ -379,26 +379,26 @@ def medial_axis(
     low_x, low_y, high_x, high_y = w.boxes[1, 0], w.boxes[1, 1], w.boxes[1, 2], w.boxes[1, 3]
     extent = length(high_x - low_x, high_y - low_y)
     start = sharpest(w)
-    a.count[UNSEEN] = loops - 1
+    a.numbers[UNSEEN] = loops - 1
     a.unseen[w.loop[start]] = loops - 1
     node = put_tip(a, w, start)
     put_branch(a, node, w.preceding[start], start, w.x[start], w.y[start], 0.0)
     is_done = True
     for _ in range(room):
-        if not is_done or a.count[BRANCHES] == 0:
+        if not is_done or a.numbers[BRANCHES] == 0:
             break
-        a.count[BRANCHES] -= 1
-        i = a.count[BRANCHES]
+        a.numbers[BRANCHES] -= 1
+        i = a.numbers[BRANCHES]
         if a.branch[i, 0] >= 0:
             close(a, i)
             is_done = has_room(a) and roll(w, a, i, extent)
-    is_done = is_done and a.count[BRANCHES] == 0
-    is_done = is_done and a.count[UNSEEN] == 0 and a.count[OPEN] == 0
+    is_done = is_done and a.numbers[BRANCHES] == 0
+    is_done = is_done and a.numbers[UNSEEN] == 0 and a.numbers[OPEN] == 0
     points, radius, edges = drawn(w, a, tolerance)
     for i in range(points.shape[0]):
         points[i, 0] = mesh.x[w.vertex[0]] + points[i, 0] / scale_x
         points[i, 1] = mesh.y[w.vertex[0]] + points[i, 1] / scale_y
-        if i < a.count[NODES] and a.tip[i] >= 0:
+        if i < a.numbers[NODES] and a.tip[i] >= 0:
             points[i, 0], points[i, 1] = mesh.x[a.tip[i]], mesh.y[a.tip[i]]
     return is_done, points, radius, edges
 
@@ -406,7 +406,7 @@ def medial_axis(
 @njit(borrows=True)
 def has_room(a: Axis) -> bool:
     """Whether the longest way and a fork fit in."""
-    return max(a.count[NODES], a.count[PIECES], a.count[BRANCHES]) + 8 < a.node.shape[0]
+    return max(a.numbers[NODES], a.numbers[PIECES], a.numbers[BRANCHES]) + 8 < a.node.shape[0]
 
 
 @njit(borrows=True)
@@ -424,16 +424,16 @@ def parts_of(w: Walls, a: Axis, i: int, tolerance: float) -> tuple[int, Bisector
 @njit()
 def drawn(w: Walls, a: Axis, tolerance: float) -> tuple[Floats, Floats, Ints]:
     """Points, radii and edges of what has been found: nodes first, then those within arcs."""
-    n, m = a.count[NODES], 0
+    n, m = a.numbers[NODES], 0
     more = 0
-    for i in range(a.count[PIECES]):
+    for i in range(a.numbers[PIECES]):
         chords, _ = parts_of(w, a, i, tolerance)
         more, m = more + chords - 1, m + chords
     points, radius, edges = np.empty((n + more, 2)), np.empty(n + more), np.empty((m, 2), np.intp)
     for i in range(n):
         points[i, 0], points[i, 1], radius[i] = a.node[i, 0], a.node[i, 1], a.node[i, 2]
     m = 0
-    for i in range(a.count[PIECES]):
+    for i in range(a.numbers[PIECES]):
         chords, b = parts_of(w, a, i, tolerance)
         last = a.piece[i, 0]
         for k in range(1, chords + 1):
