@@ -56,12 +56,15 @@ def test_skeletons_are_inside(method: str, area: Polygon) -> None:
 @given(areas)
 def test_a_chordal_axis_goes_round_every_hole_once(area: Polygon) -> None:
     rings = [ring.buffer(1e-9) for ring in (area.exterior, *area.interiors)]  # some touch
-    assert cycles(skeleton(area)) == len(shapely.get_parts(shapely.union_all(rings))) - 1
+    assert (
+        cycles(skeleton(area, "chordal-axis"))
+        == len(shapely.get_parts(shapely.union_all(rings))) - 1
+    )
 
 
 @given(areas)
 def test_a_chordal_axis_leads_through_the_middles_of_chords(area: Polygon) -> None:
-    found = skeleton(area)
+    found = skeleton(area, "chordal-axis")
     corners = np.column_stack([found.layout.mesh.x, found.layout.mesh.y])
     middles = (corners[:, None] + corners[None]) / 2.0
     known = np.concatenate([corners, middles.reshape(-1, 2)])
@@ -108,13 +111,13 @@ def test_ring_start_and_direction_make_no_difference(method: str) -> None:
 
 
 def test_the_chordal_axis_of_a_rectangle() -> None:
-    found = skeleton(box(0, 0, 9, 2))
+    found = skeleton(box(0, 0, 9, 2), "chordal-axis")
     assert found.lines.equals(MultiLineString([[(0, 2), (4.5, 1), (9, 0)]]))
     assert found.trunk.wkt == "LINESTRING (0 1, 4.5 1, 9 1)"
 
 
 def test_the_chordal_axis_of_a_triangle_is_a_star() -> None:
-    found = skeleton(Polygon([(0, 0), (6, 0), (0, 3)]))
+    found = skeleton(Polygon([(0, 0), (6, 0), (0, 3)]), "chordal-axis")
     assert [len(rows) for rows in found.branches] == [2, 2, 2]
     assert (found.points[found.edges[:, 0]] == [2, 1]).all()
 
@@ -122,7 +125,7 @@ def test_the_chordal_axis_of_a_triangle_is_a_star() -> None:
 def test_a_junction_with_a_wide_angle_is_on_its_longest_side() -> None:
     """A T whose arms are wide: the middle triangle is obtuse."""
     area = Polygon([(0, 0), (20, 0), (20, 2), (11, 2), (11, 9), (9, 9), (9, 2), (0, 2)])
-    found = skeleton(area)
+    found = skeleton(area, "chordal-axis")
     degree = np.bincount(found.edges.ravel())
     assert np.count_nonzero(degree == 3) == 1
     junction = found.points[degree == 3][0]
@@ -206,12 +209,12 @@ def test_a_touching_hole_is_no_way_round(method: str) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"method": "minimal-radii"}, "method is 'minimal-radii', expected 'chordal-axis' or"),
+        ({"method": "minimal-radii"}, "method is 'minimal-radii', expected 'medial-axis' or"),
         ({"method": 5}, "method is 5, expected"),
         ({"min_branch_length": -1}, "min_branch_length is -1, expected a number of 0 or more"),
         ({"min_significance": "much"}, "min_significance is 'much'"),
         ({"geographic": 1}, "geographic is 1, expected True or False"),
-        ({"spacing": 1}, "method 'chordal-axis' has no option 'spacing'"),
+        ({"spacing": 1}, "method 'medial-axis' has no option 'spacing'"),
         ({"method": "point-voronoi", "spacing": 0}, "spacing is 0, expected a number above 0"),
     ],
 )

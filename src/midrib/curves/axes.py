@@ -10,8 +10,9 @@ from shapely import Polygon
 from midrib.checks import is_number, shown
 from midrib.curves.graphs import Graph, radii_of
 from midrib.curves.straight_skeleton import straight_skeleton_of
-from midrib.errors import ParameterError, TooManyStationsError
+from midrib.errors import InvariantError, ParameterError, TooManyStationsError
 from midrib.kernels.chordal import chordal_axis
+from midrib.kernels.medial import medial_axis
 from midrib.kernels.voronoi import voronoi_inside
 from midrib.layout import Layout, boundary_of
 from midrib.ragged import normalised, offsets
@@ -19,6 +20,7 @@ from midrib.types import Floats, Ints
 
 __all__ = ["AXES", "Axis"]
 
+ARCS_WITHIN = 0.01  # of the mean width
 POINTS_PER_WIDTH = 4.0
 MOST_POINTS = 5_000_000
 
@@ -67,7 +69,26 @@ def straight() -> Axis:
     return find
 
 
+def medial(*, tolerance: float | None = None) -> Axis:
+    """Medial axis: centres of the discs that touch the boundary twice; arcs to a tolerance."""
+    if tolerance is not None and (not is_number(tolerance) or not 0.0 < tolerance < np.inf):
+        msg = f"tolerance is {shown(tolerance)}, expected a number above 0"
+        raise ParameterError(msg)
+
+    def find(coordinates: Floats, starts: Ints, layout: Layout) -> Graph:
+        within = layout.mean_width * ARCS_WITHIN if tolerance is None else float(tolerance)
+        mesh = boundary_of(normalised(coordinates, starts)[0]).mesh  # the layout's has ends too
+        is_done, points, radius, edges = medial_axis(mesh, *layout.scale, within)
+        if not is_done:
+            msg = "the medial axis was not found, please report this area"
+            raise InvariantError(msg)
+        return Graph(points, edges, radius)
+
+    return find
+
+
 AXES: dict[str, Callable[..., Axis]] = {
+    "medial-axis": medial,
     "chordal-axis": chordal,
     "point-voronoi": point_voronoi,
     "straight-skeleton": straight,

@@ -123,6 +123,15 @@ METHODS = {
             finder=mean_curve_finder,
         ),
         Method(
+            name="medial-axis",
+            source="Lee 1982",
+            has_branches=True,
+            supports_holes=True,
+            is_exact=True,
+            cost="n log n",
+            finder=partial(trunk_finder, "medial-axis"),
+        ),
+        Method(
             name="chordal-axis",
             source="Bader and Weibel 1997",
             has_branches=True,
@@ -159,7 +168,7 @@ def methods() -> list[Method]:
     Examples
     --------
     >>> [method.name for method in methods() if method.has_branches]
-    ['chordal-axis', 'point-voronoi', 'straight-skeleton']
+    ['medial-axis', 'chordal-axis', 'point-voronoi', 'straight-skeleton']
     """
     return list(METHODS.values())
 

@@ -77,7 +77,7 @@ class Skeleton:
 
 def skeleton(
     area: Any,
-    method: str = "chordal-axis",
+    method: str = "medial-axis",
     *,
     min_branch_length: float | None = None,
     min_significance: float | None = None,
@@ -89,7 +89,7 @@ def skeleton(
     Parameters
     ----------
     area : Polygon
-    method : str, default "chordal-axis"
+    method : str, default "medial-axis"
         One of those of ``midrib.methods()`` that have branches.
     min_branch_length : float, optional
         Leave out shorter branches to tips; in coordinate units, in metres if geographic.
@@ -100,7 +100,8 @@ def skeleton(
     geographic : bool, default False
         Whether coordinates are degrees of longitude and latitude.
     **options
-        Those of the method: ``spacing`` of "point-voronoi".
+        Those of the method: ``tolerance`` of "medial-axis", how far its arcs may be from their
+        chords; ``spacing`` of "point-voronoi".
 
     Returns
     -------
@@ -120,7 +121,7 @@ def skeleton(
     --------
     >>> found = skeleton(box(0, 0, 9, 2), min_significance=1.5)
     >>> found.trunk.wkt
-    'LINESTRING (0 1, 4.5 1, 9 1)'
+    'LINESTRING (0 1, 1 1, 8 1, 9 1)'
     """
     axis = axis_of(method)
     least = {"min_branch_length": min_branch_length, "min_significance": min_significance}

@@ -1,0 +1,135 @@
+r"""Walls: the boundary of an area as its inside sees it, one segment after the other.
+
+Walls follow each other around the inside, which is on their left. Where rings touch, the inside
+may see one loop of walls where there are two rings, and several corners where there is one point.
+
+                  following
+                  \  inside        corner of wall k: the point where it starts, if the
+    inside         \               inside has more than half a turn there: it may be what
+    ----------------.              a point of the inside is nearest to
+      k
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.boxtree import DEPTH, box_tree
+from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
+from midrib.kernels.mesh import Mesh, next_boundary_side
+from midrib.kernels.predicates import orient
+from midrib.types import Bools, Floats, Ints
+
+__all__ = ["NO_CORNER", "Walls", "sharpest", "walls_of"]
+
+NO_CORNER = -1
+
+
+class Walls(NamedTuple):
+    """Walls of all loops, in places 0 .. n - 1; after each loop one place has its first point.
+
+    x, y        where each starts, as lengths from the very first one
+    ux, uy      direction
+    vertex      of the mesh, where each starts
+    following, preceding
+    corner      the wall that starts from the reflex corner at the same point, or NO_CORNER
+    is_convex   whether the inside has less than half a turn where it starts
+    loop        its loop
+    first       the first wall of each loop
+    is_wall     not a place after a loop
+    boxes       tree of boxes over all of them
+    stack       room for a search in the tree
+    """
+
+    x: Floats
+    y: Floats
+    ux: Floats
+    uy: Floats
+    vertex: Ints
+    following: Ints
+    preceding: Ints
+    corner: Ints
+    is_convex: Bools
+    loop: Ints
+    first: Ints
+    is_wall: Bools
+    boxes: Floats
+    stack: Ints
+
+
+@njit()
+def sides_in_loops(mesh: Mesh) -> tuple[Ints, Ints]:
+    """Boundary sides, loop by loop, and where each loop starts."""
+    count, loops = 0, 0
+    for e in range(mesh.tri.size):
+        count += mesh.twin[e] < 0
+    side, starts = np.empty(count, np.intp), np.zeros(count + 1, np.intp)
+    is_seen = np.zeros(mesh.tri.size, np.bool_)
+    count = 0
+    for first in range(mesh.tri.size):
+        if mesh.twin[first] >= 0 or is_seen[first]:
+            continue
+        e = first
+        for _ in range(side.size):
+            side[count], is_seen[e] = e, True
+            count += 1
+            e = next_boundary_side(mesh, e)
+            if e == first:
+                break
+        loops += 1
+        starts[loops] = count
+    return side, starts[: loops + 1]
+
+
+@njit()
+def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
+    """Walls of an area; ``scale_x`` and ``scale_y`` are lengths of one unit of x and of y. O(n)."""
+    side, starts = sides_in_loops(mesh)
+    loops = starts.size - 1
+    n = side.size + loops
+    x, y, ux, uy = np.empty(n), np.empty(n), np.zeros(n), np.zeros(n)
+    vertex, following, preceding = np.empty(n, np.intp), np.empty(n, np.intp), np.empty(n, np.intp)
+    corner, loop, first = np.full(n, NO_CORNER), np.empty(n, np.intp), np.empty(loops, np.intp)
+    is_wall, is_convex = np.ones(n, np.bool_), np.zeros(n, np.bool_)
+    origin = mesh.tri[side[0]]
+    for ring in range(loops):
+        first[ring], last = starts[ring] + ring, starts[ring + 1] + ring - 1
+        for k in range(first[ring], last + 2):
+            e = side[starts[ring] if k > last else k - ring]
+            vertex[k], loop[k] = mesh.tri[e], ring
+            x[k] = (mesh.x[vertex[k]] - mesh.x[origin]) * scale_x
+            y[k] = (mesh.y[vertex[k]] - mesh.y[origin]) * scale_y
+            following[k], preceding[k] = k + 1, k - 1
+        following[last], preceding[first[ring]], is_wall[last + 1] = first[ring], last, False
+        for k in range(first[ring], last + 1):
+            dx, dy = x[k + 1] - x[k], y[k + 1] - y[k]
+            size = length(dx, dy)
+            ux[k], uy[k] = dx / size, dy / size
+    reflex = np.full(mesh.x.size, NO_CORNER)
+    for k in range(n):
+        if is_wall[k]:
+            a, b, c = vertex[preceding[k]], vertex[k], vertex[k + 1]
+            turn = orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], mesh.x[c], mesh.y[c])
+            is_convex[k] = turn > 0.0
+            if turn < 0.0:  # of the corners at one point only one can have more than half a turn
+                reflex[b] = k
+    for k in range(n):
+        corner[k] = reflex[vertex[k]]
+    return Walls(
+        x, y, ux, uy, vertex, following, preceding, corner, is_convex, loop, first, is_wall,
+        box_tree(x, y), np.empty(DEPTH, np.intp),
+    )  # fmt: skip
+
+
+@njit(borrows=True)
+def sharpest(walls: Walls) -> int:
+    """Wall that starts from the convex corner of the sharpest angle; every area has three."""
+    best, at = np.inf, -1
+    for k in range(walls.x.size):
+        if walls.is_wall[k] and walls.is_convex[k]:
+            p = walls.preceding[k]
+            along = walls.ux[p] * walls.ux[k] + walls.uy[p] * walls.uy[k]
+            if along < best:
+                best, at = along, k
+    return at
