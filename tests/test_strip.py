@@ -1,11 +1,13 @@
 """Strips: how a boundary is divided, and what is refused."""
 
+import re
+
 import numpy as np
 import pytest
 import shapely
 from hypothesis import given, note, settings
 from hypothesis import strategies as st
-from shapely import LineString, Point, Polygon
+from shapely import LineString, Point, Polygon, box
 
 from midrib import Strip, minimal_radii, split
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
@@ -284,3 +286,10 @@ def test_hints_that_make_no_sense_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         split(rectangle(10.0, 2.0), **options)
+
+
+@pytest.mark.parametrize("point", [(0.0, 0.0), (0.0, 4.0), (7.0, 9.0)])
+def test_start_and_end_in_one_point_are_refused(point: tuple[float, float]) -> None:
+    expected = re.escape(f"same point of the boundary, ({point[0]:g}, {point[1]:g})")
+    with pytest.raises(InvalidAreaError, match=expected):
+        split(box(0, 0, 30, 9), start=point, end=point)

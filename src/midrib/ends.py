@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from midrib.errors import InvalidAreaError
 from midrib.kernels.ends import propose_ends
 from midrib.kernels.layout import lay_out_rings
 from midrib.kernels.rings import Rings
@@ -18,6 +19,7 @@ from midrib.layout import (
     lay_out,
     layout_of,
 )
+from midrib.ragged import place_text
 from midrib.types import Floats, Ints
 
 __all__ = ["End", "end_at", "end_far_from", "lay_out_ends", "lay_out_proposed", "proposed"]
@@ -86,7 +88,19 @@ def proposed(boundary: Boundary, scale: Scale, source: int) -> tuple[Ints, Float
 def lay_out_ends(
     boundary: Boundary, start: End, stop: End, scale: Scale, main: Main = "longer"
 ) -> Layout:
-    """Divide an area at two ends; see ``layout.lay_out``."""
+    """Divide an area at two ends; see ``layout.lay_out``.
+
+    Raises
+    ------
+    InvalidAreaError
+        If the ends are one point.
+    """
+    if start == stop:  # inside a segment they would be told apart by rounding
+        mesh, order = boundary.mesh, boundary.order
+        a, b = order[start.place], order[(start.place + 1) % order.size]
+        point = np.array([c[a] + start.share * (c[b] - c[a]) for c in (mesh.x, mesh.y)])
+        msg = f"start and end are the same point of the boundary, {place_text(point)}"
+        raise InvalidAreaError(msg)
     places = np.array([[start.place, start.other], [stop.place, stop.other]])
     return lay_out(boundary, places, np.array([start.share, stop.share]), scale, main)
 
