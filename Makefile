@@ -35,6 +35,8 @@ quality: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-bench.txt
 	$(BIN)/python benchmarks/scoreboard.py
 	$(BIN)/python benchmarks/ribbons.py
+	$(BIN)/python benchmarks/bays.py
+	$(BIN)/python benchmarks/limit.py
 	$(BIN)/python benchmarks/hatching.py
 
 dev: $(VENV)/ready

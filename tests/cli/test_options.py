@@ -14,7 +14,7 @@ from midrib.curves.methods import USUAL
 
 OF_THE_LINE = "How the line is made"
 OF_COLLAPSE = {"method", "connect"}  # and of no construction
-OF_PYTHON = {"stations", "skip"}  # arrays and functions
+OF_PYTHON = {"stations"}  # arrays
 
 
 def literals(kind: Any) -> list[str]:

@@ -1,16 +1,12 @@
 """The command ``midrib collapse``."""
 
-from typing import Any
-
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import Centring, Channel, EndRule, Holes, WidthPlace, chosen
+from midrib.cli.options import Centring, Channel, EndRule, Holes, WidthPlace
 from midrib.errors import ParameterError
 
 __all__ = ["collapse"]
-
-CLEARANCES = {"station": "station", "proportional": "proportional", "none": None}
 
 
 def collapse(
@@ -26,6 +22,7 @@ def collapse(
     centring: cli.CentringOption = Centring.centred,
     tolerance: cli.Tolerance = None,
     mean: cli.MeanOption = None,
+    skip: cli.SkipOption = None,
     holes: cli.HolesOption = Holes.blocked,
     channel: cli.ChannelOption = Channel.shorter,
     ends: cli.EndsOption = EndRule.caps,
@@ -41,11 +38,11 @@ def collapse(
 ) -> None:
     """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.job import Results, check_options, collapse_layer
+    from midrib.cli.lines import options_of_line
     from midrib.cli.output import Places, draw
     from midrib.cli.report import Report
     from midrib.formats.guides import guides_for
     from midrib.formats.reading import choose_layer, open_layer
-    from midrib.formats.units import length_in
 
     if connect:
         check_alone(main=main, ends=ends)
@@ -54,20 +51,12 @@ def collapse(
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        given = {
-            "count": count,
-            "percent": percent,
-            "vertices": vertices,
-            "mean": mean and mean.value,
-            "smooth": smooth or None,
-            "spacing": spacing and length_in(spacing, features.crs, "--spacing"),
-            "tolerance": tolerance and deviation(tolerance, features.crs, "--tolerance"),
-            "simplify": simplify and deviation(simplify, features.crs, "--simplify"),
-        }
-        options: dict[str, Any] = {k: value for k, value in given.items() if value is not None}
-        options |= chosen(centring=centring, holes=holes, channel=channel, ends=ends)
-        if end_clearance is not None:
-            options["end_clearance"] = clearance(end_clearance, features.crs)
+        options = options_of_line(
+            features.crs, spacing=spacing, count=count, percent=percent, vertices=vertices,
+            centring=centring, tolerance=tolerance, mean=mean, skip=skip, holes=holes,
+            channel=channel, ends=ends, end_clearance=end_clearance, simplify=simplify,
+            smooth=smooth,
+        )  # fmt: skip
         check_options(method, options)
         guides = guides_for(main, source, features)
         results = Results(features, has_m=width is WidthPlace.m)
@@ -86,29 +75,3 @@ def check_alone(*, main: str | None, ends: EndRule) -> None:
         if is_given:
             msg = f"--connect excludes {name}: joints place the ends"
             raise ParameterError(msg)
-
-
-def clearance(text: str, crs: str | None) -> str | float | None:
-    """Read the clearance at the ends: the name of a rule, None or a length."""
-    from midrib.formats.units import length_in
-
-    if text in CLEARANCES:
-        return CLEARANCES[text]
-    try:
-        return length_in(text, crs, "--end-clearance")
-    except ParameterError as error:
-        msg = f"{error}, or station, proportional, none"
-        raise ParameterError(msg) from None
-
-
-def deviation(text: str, crs: str | None, option: str) -> str | float:
-    """Read how far a line may be from another: a percentage as it stands, or a length."""
-    from midrib.formats.units import length_in
-
-    if text.strip().endswith("%"):
-        return text
-    try:
-        return length_in(text, crs, option)
-    except ParameterError as error:
-        msg = f"{error}, or a share of the width: 5%"
-        raise ParameterError(msg) from None

@@ -62,6 +62,8 @@ __all__ = [
     "Scale",
     "ShortRatio",
     "Simplify",
+    "SkipOption",
+    "SkipRule",
     "SlopesIn",
     "Smooth",
     "Source",
@@ -111,6 +113,13 @@ class Mean(StrEnum):
     radii = "radii"
     proportional = "proportional"
     same_height = "same-height"
+
+
+class SkipRule(StrEnum):
+    """Stations that are dropped."""
+
+    bays = "bays"
+    none = "none"
 
 
 class Holes(StrEnum):
@@ -357,6 +366,14 @@ Tolerance: TypeAlias = Annotated[
 MeanOption: TypeAlias = Annotated[
     Mean | None,
     of_line(metavar="NAME", help="Mean of a symmetric line: radii, proportional, same-height."),
+]
+SkipOption: TypeAlias = Annotated[
+    SkipRule | None,
+    of_line(
+        metavar="WHICH",
+        help="Radii to leave out. bays: those in bays and side arms, as of the paper's curve "
+        "unless you say otherwise; none: no radius.",
+    ),
 ]
 HolesOption: TypeAlias = Annotated[
     Holes,

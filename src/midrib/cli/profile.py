@@ -3,7 +3,7 @@
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import Channel, Holes, chosen
+from midrib.cli.options import Centring, Channel, EndRule, Holes
 
 __all__ = ["profile"]
 
@@ -16,8 +16,16 @@ def profile(
     spacing: cli.StationSpacing = None,
     identifier: cli.Identifier = None,
     method: cli.Method = "minimal-radii",
+    centring: cli.CentringOption = Centring.centred,
+    tolerance: cli.Tolerance = None,
+    mean: cli.MeanOption = None,
+    skip: cli.SkipOption = None,
     holes: cli.HolesOption = Holes.blocked,
     channel: cli.ChannelOption = Channel.shorter,
+    ends: cli.EndsOption = EndRule.caps,
+    end_clearance: cli.EndClearance = None,
+    simplify: cli.Simplify = None,
+    smooth: cli.Smooth = False,
     out_layer: cli.OutLayer = None,
     figure: cli.TableFigure = None,
     overwrite: cli.Overwrite = False,
@@ -25,6 +33,7 @@ def profile(
 ) -> None:
     """Measure the width of areas along their lines: a table of stations and widths."""
     from midrib.cli.job import check_options
+    from midrib.cli.lines import options_of_line
     from midrib.cli.output import Places
     from midrib.cli.report import Report
     from midrib.cli.tables import Table, check_field, check_table, profile_layer, write_table
@@ -38,7 +47,11 @@ def profile(
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:
-        options = chosen(holes=holes, channel=channel)
+        options = options_of_line(
+            features.crs, centring=centring, tolerance=tolerance, mean=mean, skip=skip,
+            holes=holes, channel=channel, ends=ends, end_clearance=end_clearance,
+            simplify=simplify, smooth=smooth,
+        )  # fmt: skip
         check_options(method, options)
         check_field(identifier, features)
         interval = None if spacing is None else length_in(spacing, features.crs, "--spacing")
