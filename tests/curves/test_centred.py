@@ -1,5 +1,7 @@
 """Centred and symmetric curves: equally far from both banks, by definition and by closed forms."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 import shapely
@@ -188,3 +190,70 @@ def test_the_line_passes_an_island_on_its_banks_other_side() -> None:
     for island in islands:
         beside = curve.line.intersection(LineString([(island.centroid.x, 0), island.centroid]))
         assert beside.y == pytest.approx(0.5, abs=0.2)
+
+
+def cut_off_wedge(degrees: float, near: float, far: float) -> Polygon:
+    """A wedge between two distances from its tip, which is the origin; one bank on the x axis."""
+    angle = np.radians(degrees)
+    inner, outer = (r * np.array([np.cos(angle), np.sin(angle)]) for r in (near, far))
+    return Polygon([(near, 0.0), (far, 0.0), outer, inner])
+
+
+@pytest.mark.parametrize("options", [{}, {"tolerance": 0.0}, {"centring": "symmetric"}], ids=str)
+@pytest.mark.parametrize(
+    ("degrees", "ratio"), [(10.0, 2.0), (10.0, 10.0), (10.0, 40.0), (30.0, 5.0), (30.0, 10.0)]
+)
+def test_a_wedge_cut_off_has_its_bisector(
+    degrees: float, ratio: float, options: dict[str, Any]
+) -> None:
+    """However narrow the narrow end is: its middle had given way to a corner at 1 to 10."""
+    near, far = 0.75, 0.75 * ratio
+    points = shapely.get_coordinates(collapse(cut_off_wedge(degrees, near, far), **options))
+    inner = np.hypot(*points.T) * np.cos(np.radians(degrees) / 2.0) < 0.95 * far
+    assert off_bisector(points[inner], degrees) == pytest.approx(0.0, abs=1e-9)
+    assert inner.any()
+
+
+def test_without_tolerance_kinks_are_vertices() -> None:
+    area = Polygon([(0, 0), (10, 0), (10, 2), (5, 4), (0, 4)])
+    line = collapse(area, tolerance=0.0)
+    kink = 5.0 - (2.0 * np.sqrt(29.0) - 10.0) / 2.0  # 2 from all three banks
+    points = shapely.get_coordinates(line)
+    assert np.hypot(*(points - (kink, 2.0)).T).min() == pytest.approx(0.0, abs=1e-12)
+    assert len(points) < 16
+
+
+@given(
+    heights=st.lists(st.floats(1.0, 3.0), min_size=2, max_size=6),
+    degrees=st.floats(0.0, 360.0),
+)
+@settings(max_examples=80)
+def test_without_tolerance_straight_stretches_are_exact(
+    heights: list[float], degrees: float
+) -> None:
+    """The trunk of a convex area has no arcs."""
+    upper = [(4.0 * k, height) for k, height in enumerate(heights)]
+    last = 4.0 * (len(heights) - 1)
+    hull = shapely.convex_hull(LineString([(0.0, 0.0), *upper, (last, 0.0)]))
+    area = rotate(hull, degrees, origin=(0, 0))
+    line = collapse(area, tolerance=0.0)
+    assert len(line.coords) < 100
+    at = np.linspace(0.0, line.length, 401)
+    points = shapely.get_coordinates(line.interpolate(at))
+    strip = split(area)
+    lean = [
+        abs(strip.main.distance(p) - strip.auxiliary.distance(p)) for p in shapely.points(points)
+    ]
+    margin = 3.5  # the line glides from ends that are off the trunk
+    inner = (at > margin) & (at < line.length - margin)
+    assert np.array(lean)[inner] == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", sorted(NAMED))
+def test_without_tolerance_arcs_are_not_divided_for_ever(name: str) -> None:
+    area = NAMED[name]
+    exact, usual = collapse(area, tolerance=0.0), collapse(area)
+    assert area.covers(exact)
+    assert exact.is_simple
+    assert len(exact.coords) < 60 * len(usual.coords)
+    assert exact.hausdorff_distance(usual) < 0.5 * area.area / usual.length

@@ -139,7 +139,9 @@ def minimal_radii(
     tolerance : float or str, optional
         How far the curve may be from what it stands for: a length in coordinate units, or a share
         of the mean width as text, ``"1%"``. If centred, between its points from the line on which
-        both curves are equally far, a 100th of the mean width unless given. Otherwise from the
+        both curves are equally far, a 100th of the mean width unless given; at 0 straight
+        stretches are exact, with their kinks as vertices, and arcs of parabolas, behind vertices
+        of the boundary, within a 10,000th of the width. Otherwise from the
         limit curve, which the chain of middles becomes as the interval of stations goes to 0, and
         the limit curve from it: the tolerance then chooses the stations, as few as it can do with,
         and excludes every other way to choose them. At 0 every event is a vertex: where Q turns

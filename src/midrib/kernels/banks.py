@@ -22,17 +22,21 @@ from midrib.kernels.chain import TIE_OF_COORDINATE, Chain
 from midrib.kernels.clearance import nearest_in_run, nearest_of
 from midrib.kernels.islands import Loops
 from midrib.kernels.jit import njit
+from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.triangulation import next_side
 from midrib.types import Bools, Floats, Ints
 
 __all__ = [
+    "LEVEL",
     "Banks",
     "banks_of",
     "is_level",
+    "is_straight",
     "lean_at",
     "level_between",
     "level_from",
+    "level_where_straight",
     "look_between",
     "look_everywhere",
     "way_from_nearer",
@@ -46,6 +50,7 @@ SAFE = 0.875  # of the distance to the nearer bank
 AT_WALL = 2.0**-20  # of the distance to the farther one: a point that is as near is on a wall
 FEW = 24  # segments are looked through one by one; more are searched by their boxes
 MANY = 2**62
+PARALLEL = 2.0**-26  # sine of an angle: level lines that meet at less go on straight
 
 
 class Bank(NamedTuple):
@@ -200,6 +205,27 @@ def is_level(lean: Lean, slack: float) -> bool:
 
 
 @njit(borrows=True)
+def is_straight(banks: Banks, lean: Lean) -> bool:
+    """Whether the points about the last one looked at that are level lie on a straight line.
+
+    They do where the nearest points of both banks are inside segments or both are vertices; of a
+    vertex and a segment it is a parabola.
+    """
+    at_main = is_vertex(banks.main, banks.last[0], lean.main_x, lean.main_y, lean.to_main)
+    at_auxiliary = is_vertex(
+        banks.auxiliary, banks.last[1], lean.auxiliary_x, lean.auxiliary_y, lean.to_auxiliary
+    )
+    return at_main == at_auxiliary
+
+
+@njit(borrows=True)
+def is_vertex(bank: Bank, j: int, x: float, y: float, far: float) -> bool:
+    """Whether a point of segment j, looked at from so far, is an end of it."""
+    first = length(x - bank.x[j], y - bank.y[j])
+    return min(first, length(x - bank.x[j + 1], y - bank.y[j + 1])) <= LEVEL * far
+
+
+@njit(borrows=True)
 def slope_along(lean: Lean, x: float, y: float, ux: float, uy: float) -> float:
     """How fast lean grows from x along the vector u; between -2 |u| and 2 |u|."""
     slope = 0.0
@@ -265,6 +291,36 @@ def step_to_level(lean: Lean, x: float, y: float, ux: float, uy: float) -> float
     slope = slope_along(lean, x, y, ux, uy)
     slope = slope if lean.value < 0.0 else -slope
     return abs(lean.value) / slope if slope > 0.0 else np.inf
+
+
+@njit(borrows=True)
+def level_where_straight(
+    banks: Banks, px: float, py: float, qx: float, qy: float
+) -> tuple[bool, float, float]:
+    """Return where the level lines at p and at q meet, if that is level; whether it is.
+
+    It is the kink of a level line that has one between p and q and is straight before and after.
+    """
+    lean = lean_at(banks, px, py)
+    ax, ay = level_normal(lean, px, py)
+    lean = lean_at(banks, qx, qy)
+    bx, by = level_normal(lean, qx, qy)
+    across = ax * by - ay * bx
+    if abs(across) <= PARALLEL * length(ax, ay) * length(bx, by):
+        return False, 0.0, 0.0
+    at_q = bx * (qx - px) + by * (qy - py)
+    x, y = px - ay * at_q / across, py + ax * at_q / across
+    return is_level(lean_at(banks, x, y), banks.slack), x, y
+
+
+@njit(borrows=True)
+def level_normal(lean: Lean, x: float, y: float) -> tuple[float, float]:
+    """Vector at right angles to the line of level points through a level point x."""
+    if lean.to_main <= 0.0 or lean.to_auxiliary <= 0.0:
+        return 0.0, 0.0
+    mx, my = (x - lean.main_x) / lean.to_main, (y - lean.main_y) / lean.to_main
+    ax, ay = (x - lean.auxiliary_x) / lean.to_auxiliary, (y - lean.auxiliary_y) / lean.to_auxiliary
+    return mx - ax, my - ay
 
 
 @njit(borrows=True)

@@ -25,6 +25,7 @@ from midrib.kernels.banks import banks_of
 from midrib.kernels.boxtree import DEPTH, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.clearance import nearest_of
+from midrib.kernels.glide import ends_of
 from midrib.kernels.heap import pop, push
 from midrib.kernels.islands import AUXILIARY, MAIN, Loops, distance_to_side, loops_of, side_length
 from midrib.kernels.jit import njit
@@ -32,8 +33,9 @@ from midrib.kernels.joining import Joined, cut_all_loops, string_beads
 from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
+from midrib.kernels.probes import apart_of
 from midrib.kernels.triangulation import next_side
-from midrib.kernels.trunk import APART, SHARE_OF_SLACK, ends_of, trace
+from midrib.kernels.trunk import SHARE_OF_SLACK, trace
 from midrib.kernels.ways import Stops, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
@@ -94,13 +96,14 @@ def trace_wider(
     """
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
-    slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
+    slack = SHARE_OF_SLACK * tolerance
     shores = shores_of(mesh, main, auxiliary, scale_x, scale_y)
     root = close_channels(mesh, main, auxiliary, shores, False, scale_x, scale_y).root
     islands = shores.islands
     for k in range(shores.first_island, islands.is_main.size):
         islands.is_main[k] = root[shores.loop[mesh.tri[islands.side[islands.start[k]]]]] == MAIN
     banks = banks_of(mesh, main, auxiliary, islands, slack, scale_x, scale_y)
+    apart = apart_of(banks, tolerance)
     is_main = root[shores.loop] == MAIN
     near = np.zeros((n, 2), np.intp)
     level_beads(banks, beads, near, points, first, every_bead, scale_x, scale_y)

@@ -7,7 +7,8 @@ r"""The two ends of an area: where a person would say that it begins and ends.
           |      |   middle, and the run belongs to neither curve; a run longer than two mean
           |      |   widths only if they meet it alike and the area behind it is about half as deep
           |      |   as it is long, or deeper
-     TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the vertex
+     TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the
+                    vertex, or the middle of the short run that cuts it off
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
            |    |    along both banks come out level
 
@@ -39,6 +40,7 @@ STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of 
 LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
 ASKEW = 1.0  # sum of the cosines at which two banks meet a run: 30 degrees off square on average
 LEAST_CAP = 0.25  # of the mean width
+LEAST_BLUNT = 2.0**-6  # of the mean width: what cuts a tip off, and is no roughness
 LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
 LEAST_DEPTH = 0.45  # of a long cap: real flanks have less behind their middles, waists more
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
@@ -239,13 +241,14 @@ def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> 
 
 
 @njit(borrows=True)
-def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tuple[int, int]:
+def find_cap(
+    x: Floats, y: Floats, arc: Floats, vertex: int, width: float, least: float, reach: float
+) -> tuple[int, int]:
     """Return the corners of the cap at a vertex, -1 if there is none.
 
-    Of two caps at the vertex the shorter one; else the nearest within a width of it along the
-    shell. Teeth of the banks are too short for a cap.
+    Of two caps at the vertex the shorter one; else the nearest within ``reach`` of it along the
+    shell. Teeth of the banks are shorter than ``least``.
     """
-    least = LEAST_CAP * width
     # The vertex may lie inside a straight run; a part of a run is no cap.
     backward, forward = vertex, vertex
     behind = straight_run(x, y, vertex, -1)
@@ -255,7 +258,7 @@ def find_cap(x: Floats, y: Floats, arc: Floats, vertex: int, width: float) -> tu
         span = length(x[forward] - x[backward], y[forward] - y[backward])
         if least <= span and is_cap(x, y, arc, backward, forward, width):
             return backward, forward
-    nearest, shortest, cap_p, cap_q = width, np.inf, -1, -1
+    nearest, shortest, cap_p, cap_q = reach, np.inf, -1, -1
     for step in (1, -1):
         near, way = (forward if step == 1 else backward), 0.0
         while way <= nearest:
@@ -312,7 +315,7 @@ def shape_of_end(
         way along segment i.
     """
     # 1. A lid at the vertex or next to it.
-    cap_p, cap_q = find_cap(x, y, arc, vertex, width)
+    cap_p, cap_q = find_cap(x, y, arc, vertex, width, LEAST_CAP * width, width)
     if cap_p >= 0:
         return CAP, cap_p, cap_q, 0.0
     # 2. Arms along both banks, long enough that roughness does not matter.
@@ -321,7 +324,8 @@ def shape_of_end(
     ax, ay, _, _ = point_at(x, y, arc, s - arm)
     bx, by, _, _ = point_at(x, y, arc, s + arm)
     if length(ax - bx, ay - by) < TIP_CHORD * arm:
-        return TIP, vertex, vertex, 0.0
+        cap_p, cap_q = find_cap(x, y, arc, vertex, width, LEAST_BLUNT * width, 0.0)
+        return (CAP, cap_p, cap_q, 0.0) if cap_p >= 0 else (TIP, vertex, vertex, 0.0)
     # 3. Neither: the point that leaves the banks level.
     s = levelled(x, y, arc, s, min(width, arc[-1] / 8.0))
     _, _, k, share = point_at(x, y, arc, s)

@@ -12,24 +12,11 @@ probe that is farthest off is moved onto the trunk and becomes a point of the li
                 \_/
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
-from midrib.kernels.banks import (
-    Banks,
-    Lean,
-    banks_of,
-    is_level,
-    lean_at,
-    level_between,
-    level_from,
-    look_between,
-    look_everywhere,
-    way_from_nearer,
-    way_to_level,
-)
+from midrib.kernels.banks import Banks, banks_of, look_between, look_everywhere
 from midrib.kernels.chain import Chain
+from midrib.kernels.glide import Ends, ends_of, is_before_end
 from midrib.kernels.islands import has_islands, loops_of, no_loops
 from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, join_beads, string_beads
@@ -42,42 +29,19 @@ from midrib.kernels.paths import (
     locate_from,
     new_search,
     pull_tight,
-    triangle_towards,
     walk,
 )
+from midrib.kernels.probes import apart_of, point_beside
 from midrib.kernels.tables import with_places, with_rows
-from midrib.kernels.triangulation import next_side
-from midrib.kernels.visibility import ray_meets_side
+from midrib.kernels.turns import opposite_middle_turn, opposite_wall
 from midrib.kernels.ways import Stops, is_of_main, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
-__all__ = ["APART", "SHARE_OF_SLACK", "ends_of", "trace", "trace_trunk"]
+__all__ = ["SHARE_OF_SLACK", "trace", "trace_trunk"]
 
-PROBES_PER_WIDTH = 4.0
-MOST_PROBES = 16
 SHARE_OF_SLACK = 2.0**-24  # of the tolerance: what points of the trunk may be off it
-APART = 2.0**-4  # of the tolerance: points that are nearer to each other are one
 DEPTH = 12  # halvings of the way between two radii
-GLIDE = 2.0  # beads nearer to an end than so many times what it is off the trunk are left out
 BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
-CROWDED = 2.0**-3  # of a way: a point so near to an end of it hardly divides it
-TINY = 2.0**-1000
-RAY = 4.0  # widths at a turn: how far the ray away from it looks for the trunk
-NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-
-
-class Ends(NamedTuple):
-    """End points that the line has to reach, though they may be off the trunk; in lengths."""
-
-    are_given: bool
-    x0: float
-    y0: float
-    off_0: float
-    reach_0: float
-    x1: float
-    y1: float
-    off_1: float
-    reach_1: float
 
 
 @njit(entry=True)
@@ -106,7 +70,8 @@ def trace_trunk(
     end, end_origin, end_at : end points, as in ``join_middles``
     is_trimmed : whether the ends may lie farther in than the ends of the two banks
     every_bead : whether all points of radii are wanted on the trunk, past islands too
-    tolerance : how far (in lengths) a probe may be from the trunk
+    tolerance : how far (in lengths) a probe may be from the trunk; 0 for exact straight stretches
+        with their kinks as vertices, and arcs to a 10,000th of the width
     scale_x, scale_y : lengths of one unit of x and of y
 
     Returns
@@ -118,7 +83,7 @@ def trace_trunk(
     """
     beads = string_beads(points, at, end, end_origin, end_at)
     first, n = end.shape[0] // 2, beads.side.size
-    slack, apart = SHARE_OF_SLACK * tolerance, APART * tolerance
+    slack = SHARE_OF_SLACK * tolerance
     loops, kept = no_loops(), beads_in_order(points[:, 4], first, n)
     with_islands = has_islands(mesh, main, auxiliary)
     if with_islands:
@@ -126,6 +91,7 @@ def trace_trunk(
         path = join_beads(mesh, some, scale_x, scale_y).points
         loops = loops_of(mesh, main, auxiliary, path, scale_x, scale_y)
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
+    apart = apart_of(banks, tolerance)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
     level_beads(banks, beads, near, points, first, every_bead or not with_islands, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
@@ -177,56 +143,6 @@ def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
     if ends > 0:
         kept[0], kept[longest + 1] = 0, n - 1
     return kept
-
-
-@njit(borrows=True)
-def opposite_turn(
-    mesh: Mesh,
-    banks: Banks,
-    v: int,
-    ax: float,
-    ay: float,
-    bx: float,
-    by: float,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[int, float, float]:
-    """Return the triangle and place where the ray away from a turn meets the trunk; -1 if nowhere.
-
-    ``v`` is the mesh vertex at which a way from a to b turns around a wall. The ray halves the
-    turn on its outer side.
-    """
-    x, y = mesh.x[v], mesh.y[v]
-    ux, uy, wx, wy = (ax - x) * scale_x, (ay - y) * scale_y, (bx - x) * scale_x, (by - y) * scale_y
-    u, w = length(ux, uy), length(wx, wy)
-    away_x, away_y = -(ux / u + wx / w), -(uy / u + wy / w)
-    size = length(away_x, away_y)
-    here = lean_at(banks, x * scale_x, y * scale_y)
-    reach = RAY * (here.to_main + here.to_auxiliary)
-    if not size > 0.0 or not reach > 0.0:
-        return -1, 0.0, 0.0
-    hx, hy = x + reach * (away_x / size) / scale_x, y + reach * (away_y / size) / scale_y
-    t = triangle_towards(mesh, v, hx, hy)
-    if t < 0:
-        return -1, 0.0, 0.0
-    _, side = walk(mesh, t, -1, x, y, hx, hy)
-    if side >= 0:
-        c, d = mesh.tri[side], mesh.tri[next_side(side)]
-        share = ray_meets_side(x, y, hx, hy, mesh.x[c], mesh.y[c], mesh.x[d], mesh.y[d])
-        if np.isnan(share):
-            return -1, 0.0, 0.0
-        hx = mesh.x[c] + share * (mesh.x[d] - mesh.x[c])
-        hy = mesh.y[c] + share * (mesh.y[d] - mesh.y[c])
-    there = lean_at(banks, hx * scale_x, hy * scale_y)
-    if here.value < 0.0 and there.value > 0.0:
-        mx, my, _ = level_between(banks, x * scale_x, y * scale_y, hx * scale_x, hy * scale_y, 0.5)
-    elif here.value > 0.0 and there.value < 0.0:
-        mx, my, _ = level_between(banks, hx * scale_x, hy * scale_y, x * scale_x, y * scale_y, 0.5)
-    else:
-        return -1, 0.0, 0.0
-    mx, my = mx / scale_x, my / scale_y
-    end, obstacle = walk(mesh, t, -1, x, y, mx, my)
-    return end if obstacle == -1 else -1, mx, my
 
 
 @njit()
@@ -367,214 +283,8 @@ def turns_back(
 
 
 @njit(borrows=True)
-def ends_of(
-    banks: Banks,
-    beads: Beads,
-    near: Ints,
-    are_given: bool,
-    apart: float,
-    scale_x: float,
-    scale_y: float,
-) -> Ends:
-    """Return the ends of a path, the first and the last bead if they are; note what is near."""
-    n = beads.side.size
-    x0, y0, x1, y1 = 0.0, 0.0, 0.0, 0.0
-    off_0, off_1, reach_0, reach_1 = 0.0, 0.0, 0.0, 0.0
-    if are_given:
-        x0, y0 = beads.point[0, 0] * scale_x, beads.point[0, 1] * scale_y
-        x1, y1 = beads.point[n - 1, 0] * scale_x, beads.point[n - 1, 1] * scale_y
-        off_0, reach_0 = off_and_reach(banks, apart, x0, y0)
-        near[0, 0], near[0, 1] = banks.last[0], banks.last[1]
-        off_1, reach_1 = off_and_reach(banks, apart, x1, y1)
-        near[n - 1, 0], near[n - 1, 1] = banks.last[0], banks.last[1]
-    return Ends(are_given, x0, y0, off_0, reach_0, x1, y1, off_1, reach_1)
-
-
-@njit(borrows=True)
-def off_and_reach(banks: Banks, apart: float, x: float, y: float) -> tuple[float, float]:
-    """How far an end is off the trunk, and how far from it the line may still be on its way."""
-    lean = lean_at(banks, x, y)
-    if is_level(lean, banks.slack):
-        return 0.0, apart
-    off = abs(lean.value) / 2.0
-    return off, max(min(GLIDE * off, lean.to_main + lean.to_auxiliary), apart)
-
-
-@njit(borrows=True)
-def is_before_end(ends: Ends, x: float, y: float) -> bool:
-    """Whether a point is so near to an end that the line has not come to the trunk yet."""
-    return ends.are_given and (
-        length(x - ends.x0, y - ends.y0) <= ends.reach_0
-        or length(x - ends.x1, y - ends.y1) <= ends.reach_1
-    )
-
-
-@njit(borrows=True)
-def allowance(ends: Ends, x: float, y: float) -> float:
-    """How far off the trunk a point may be because an end is: less and less away from it."""
-    if not ends.are_given:
-        return 0.0
-    first = 1.0 - length(x - ends.x0, y - ends.y0) / (2.0 * ends.reach_0 + TINY)
-    last = 1.0 - length(x - ends.x1, y - ends.y1) / (2.0 * ends.reach_1 + TINY)
-    return ends.off_0 * max(first, 0.0) + ends.off_1 * max(last, 0.0)
-
-
-@njit(borrows=True)
 def is_near(
     px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
 ) -> bool:
     """Whether two points are nearer than what the trunk's points may be off."""
     return length((qx - px) * scale_x, (qy - py) * scale_y) <= slack
-
-
-@njit(borrows=True)
-def point_beside(
-    mesh: Mesh,
-    banks: Banks,
-    ends: Ends,
-    t: int,
-    px: float,
-    py: float,
-    qx: float,
-    qy: float,
-    tolerance: float,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[int, float, float]:
-    """Return the triangle and place of a point of the trunk beside the way from p in t to q.
-
-    It is where the way is farthest off, or where either half of it is, if that cannot be reached;
-    -1 if the way is good enough or no point can be. Points that crowd p or q come last.
-    """
-    best, best_x, best_y, most = -1, 0.0, 0.0, 0.0
-    enough = CROWDED * length((qx - px) * scale_x, (qy - py) * scale_y)
-    for k in range(3):
-        low, high = (0.0, 1.0) if k == 0 else (0.0, 0.5) if k == 1 else (0.5, 1.0)
-        ax, ay = px + low * (qx - px), py + low * (qy - py)
-        bx, by = px + high * (qx - px), py + high * (qy - py)
-        at, lean = worst_probe(
-            banks, ends, ax * scale_x, ay * scale_y, bx * scale_x, by * scale_y, tolerance
-        )
-        if at < 0.0 and k == 0:
-            break
-        hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
-        for is_away in (False, True):
-            if at < 0.0:
-                continue
-            ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
-            if is_away:
-                ux, uy = way_from_nearer(lean, hx * scale_x, hy * scale_y)
-            is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
-            x, y = x / scale_x, y / scale_y
-            end = walk_by(mesh, t, px, py, hx, hy, x, y) if is_found else -1
-            to_p = length((x - px) * scale_x, (y - py) * scale_y)
-            to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
-            if end >= 0 and min(to_p, to_q) >= enough:
-                return end, x, y
-            if end >= 0 and min(to_p, to_q) > most:
-                best, best_x, best_y, most = end, x, y, min(to_p, to_q)
-    if best >= 0:
-        lean_at(banks, best_x * scale_x, best_y * scale_y)  # its feet are the last ones
-    return best, best_x, best_y
-
-
-@njit(borrows=True)
-def worst_probe(
-    banks: Banks, ends: Ends, px: float, py: float, qx: float, qy: float, tolerance: float
-) -> tuple[float, Lean]:
-    """Return where (0 at p, 1 at q) the way is farthest off the trunk, and how it leans there.
-
-    -1 where no probe is off by more than is allowed.
-    """
-    span = length(qx - px, qy - py)
-    probes, k = 1, 0
-    worst, at, worst_lean = tolerance, -1.0, NOWHERE
-    while k < probes:
-        share = (k + 1.0) / (probes + 1.0)
-        x, y = px + share * (qx - px), py + share * (qy - py)
-        lean = lean_at(banks, x, y)
-        k += 1
-        if probes == 1:
-            # The first probe, in the middle, says how many it takes.
-            wanted = np.ceil(PROBES_PER_WIDTH * span / (lean.to_main + lean.to_auxiliary))
-            if wanted > 1.0:
-                probes, k = int(min(wanted, MOST_PROBES)), 0
-        if abs(lean.value) <= tolerance:
-            continue
-        _, _, off = way_to_level(lean, x, y)
-        off -= allowance(ends, x, y)
-        if off > worst:
-            worst, at, worst_lean = off, share, lean
-    return at, worst_lean
-
-
-@njit(borrows=True)
-def walk_by(
-    mesh: Mesh, t: int, px: float, py: float, x: float, y: float, qx: float, qy: float
-) -> int:
-    """Return the triangle in which the way from p in t straight to x and on to q ends; -1 if none.
-
-    Islands are in nobody's way between the banks; here they are.
-    """
-    end, obstacle = walk(mesh, t, -1, px, py, x, y)
-    if obstacle == -1:
-        end, obstacle = walk(mesh, end, -1, x, y, qx, qy)
-    return end if obstacle == -1 else -1
-
-
-@njit(borrows=True)
-def opposite_middle_turn(
-    mesh: Mesh,
-    banks: Banks,
-    turns: Ints,
-    px: float,
-    py: float,
-    qx: float,
-    qy: float,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[int, float, float]:
-    """Return ``opposite_turn`` for the middle one of the turns, if any, from p to q."""
-    if turns.size == 0:
-        return -1, 0.0, 0.0
-    k = turns.size // 2
-    if k > 0:
-        px, py = mesh.x[turns[k - 1]], mesh.y[turns[k - 1]]
-    if k + 1 < turns.size:
-        qx, qy = mesh.x[turns[k + 1]], mesh.y[turns[k + 1]]
-    return opposite_turn(mesh, banks, turns[k], px, py, qx, qy, scale_x, scale_y)
-
-
-@njit(borrows=True)
-def opposite_wall(
-    mesh: Mesh,
-    banks: Banks,
-    t: int,
-    wall: int,
-    px: float,
-    py: float,
-    qx: float,
-    qy: float,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[int, float, float]:
-    """Return the triangle and place where the way from a wall to the other bank meets the trunk.
-
-    ``wall`` is the boundary side of triangle t that stops the way from p to q; -1 if nowhere.
-    The trunk passes on the wall's other side than the bank that it is of, where the shortest way
-    may not: islands go with a bank.
-    """
-    a, b = mesh.tri[wall], mesh.tri[next_side(wall)]
-    ax, ay, bx, by = mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b]
-    share = ray_meets_side(px, py, qx, qy, ax, ay, bx, by)
-    if not 0.0 <= share <= 1.0:
-        return -1, 0.0, 0.0
-    hx, hy = ax + share * (bx - ax), ay + share * (by - ay)
-    lean = lean_at(banks, hx * scale_x, hy * scale_y)
-    if is_level(lean, banks.slack):
-        return -1, 0.0, 0.0
-    ux, uy, _ = way_to_level(lean, hx * scale_x, hy * scale_y)
-    is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
-    x, y = x / scale_x, y / scale_y
-    end, obstacle = walk(mesh, t, -1, hx, hy, x, y)
-    return end if is_found and obstacle == -1 else -1, x, y
