@@ -45,6 +45,7 @@ LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
 LEAST_DEPTH = 0.45  # of a long cap: real flanks have less behind their middles, waists more
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
 LEVELLINGS = 8
+LEAST_ADVANCE = 0.125  # of an arm: middles that are nearer to each other have no direction
 LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the shell
 
 
@@ -274,22 +275,32 @@ def find_cap(
 
 
 @njit(borrows=True)
+def between(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> tuple[float, float]:
+    """Middle between the points one arm before and after the arc length s."""
+    ax, ay, _, _ = point_at(x, y, arc, s - arm)
+    bx, by, _, _ = point_at(x, y, arc, s + arm)
+    return (ax + bx) / 2.0, (ay + by) / 2.0
+
+
+@njit(borrows=True)
 def levelled(x: Floats, y: Floats, arc: Floats, s: float, arm: float) -> float:
     """Shift the arc length s until the points one arm before and after it are level.
 
-    Level means: equally far along the mean direction of the two banks there.
+    Level means: equally far in the direction of the middles between the banks, from two arms over
+    one and a half to one, turned on as much again.
     """
     shift_limit = arm
     for _ in range(LEVELLINGS):
-        ax, ay, _, _ = point_at(x, y, arc, s - arm)
-        bx, by, _, _ = point_at(x, y, arc, s + arm)
-        a2x, a2y, _, _ = point_at(x, y, arc, s - 2.0 * arm)
-        b2x, b2y, _, _ = point_at(x, y, arc, s + 2.0 * arm)
-        ux, uy = (ax - a2x) + (bx - b2x), (ay - a2y) + (by - b2y)
-        span = length(ux, uy)
-        if span <= 0.5 * arm:
+        nx, ny = between(x, y, arc, s, arm)
+        mx, my = between(x, y, arc, s, 1.5 * arm)
+        fx, fy = between(x, y, arc, s, 2.0 * arm)
+        ux, uy, vx, vy = nx - mx, ny - my, mx - fx, my - fy
+        u, v = length(ux, uy), length(vx, vy)
+        if min(u, v) <= LEAST_ADVANCE * arm:
             return s
-        ahead = ((ax - bx) * ux + (ay - by) * uy) / span
+        ux, uy = 2.0 * ux / u - vx / v, 2.0 * uy / u - vy / v
+        ax, ay, _, _ = point_at(x, y, arc, s - arm)
+        ahead = 2.0 * ((ax - nx) * ux + (ay - ny) * uy) / length(ux, uy)
         shift = min(max(ahead / 2.0, -shift_limit), shift_limit)
         s -= shift
         shift_limit /= 2.0
