@@ -500,3 +500,16 @@ def pairs_that_touch(areas: Areas) -> list[tuple[int, int]]:
 def mean_width(area: Polygon) -> float:
     """Twice the area over the perimeter of its shell."""
     return float(2.0 * Polygon(area.exterior).area / area.exterior.length)
+
+
+@pytest.mark.parametrize(("arm", "kind"), [(30.0, "side"), (150.0, "none")])
+def test_a_line_does_not_go_on_all_along_an_arm_of_its_neighbour(arm: float, kind: str) -> None:
+    """The neighbour's own line passes the arm."""
+    fork = shapely.union(box(0, 0, 5, 400), box(5, 200, 5 + arm, 205))
+    last = box(5 + arm, 200, 65 + arm, 205)
+    lines, (joint,) = connected([fork, last])
+    assert joint.kind == kind
+    assert_inside(lines, [fork, last])
+    if kind == "none":
+        assert "away, and its area" in joint.reason
+        assert last.covers(lines[1])

@@ -141,9 +141,10 @@ def collapse(
     leads up to it. Lines then meet in the same vertex, bit by bit, and turn there as the areas do:
     by 80 degrees and more where these meet at a corner or in an acute tip. The vertex is on the
     edge but for rounding, so that lines are covered by the areas of both. They are simplified and
-    smoothed as far as the edges, and keep their joints. ``"report"`` adds a ``Joint`` for each
-    shared edge, with the reason where there is none. Edges are shared where boundaries are not
-    farther apart than their coordinates are rounded.
+    smoothed as far as the edges, and keep their joints. A line goes on into a neighbour for at most
+    eight of its widths. ``"report"`` adds a ``Joint`` for each shared edge, with the reason where
+    there is none. Edges are shared where boundaries are not farther apart than their coordinates
+    are rounded.
 
     Examples
     --------

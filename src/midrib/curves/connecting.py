@@ -34,6 +34,7 @@ Chains = dict[int, Chain]
 Kind = Literal["end to end", "side", "none"]
 PLANE: Scale = (1.0, 1.0)
 HALF = 0.5
+FAR = 8.0  # widths of an area: a way through it that is longer goes along it, beside its line
 OFFERED = HALF**HALF  # what an edge counts that is only a neighbour's end: two of them half
 
 
@@ -386,11 +387,15 @@ def join_side(
 ) -> Joined:
     """Lead the line of area i on to the line of area j."""
     side, main = chains[i], chains[j]
-    way = way_to_chain(outlines[j], contact.middle, main.points[:, :2])
+    outline = outlines[j]
+    way = way_to_chain(outline, contact.middle, main.points[:, :2])
     reason = "no way leads from it to the other line"
-    if way is not None:
+    if way is not None and way.length(outline.scale) > FAR * outline.width:
+        far, width = way.length(outline.scale), outline.width
+        reason = f"the other line is {far:.3g} away, and its area {width:.3g} wide"
+    elif way is not None:
         end, point = contact.chosen[i], main.point_at(way)
-        side.go_on(end, way, point, outlines[j].scale)
+        side.go_on(end, way, point, outline.scale)
         if side.line().is_simple:
             main.pass_through(way, point)
             return Joined((i, j), "side", point[:2], "")

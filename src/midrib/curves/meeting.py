@@ -34,6 +34,10 @@ class Way(NamedTuple):
     segment: int  # of the line, where the way ends
     share: float  # of the segment
 
+    def length(self, scale: Scale) -> float:
+        """Return how long it is."""
+        return float(np.hypot(*(np.diff(self.points, axis=0) * scale).T).sum())
+
 
 @dataclass
 class Chain:

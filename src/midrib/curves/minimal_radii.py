@@ -141,11 +141,12 @@ def minimal_radii(
         of the mean width as text, ``"1%"``. If centred, between its points from the line on which
         both curves are equally far, a 100th of the mean width unless given; at 0 straight
         stretches are exact, with their kinks as vertices, and arcs of parabolas, behind vertices
-        of the boundary, within a 10,000th of the width. Otherwise from the
-        limit curve, which the chain of middles becomes as the interval of stations goes to 0, and
-        the limit curve from it: the tolerance then chooses the stations, as few as it can do with,
-        and excludes every other way to choose them. At 0 every event is a vertex: where Q turns
-        from one segment to the next, ties, comes in view or is lost.
+        of the boundary, within a 10,000th of the width. Otherwise from the limit curve, which the
+        chain of middles becomes as the interval of stations goes to 0, and the limit curve from
+        it: the tolerance then chooses the stations, as few as it can do with, and excludes every
+        other way to choose them. At 0 every event is a vertex: where Q turns from one segment to
+        the next, ties, comes in view or is lost. ``points`` are that chain; ``line`` is what is
+        left of it without loops.
     stations : array_like of float, optional
         Arc lengths along the main curve to use as well; with ``vertices=False`` only these.
     skip : {"bays"}, int, slice, Polygon, function or list of them, optional
