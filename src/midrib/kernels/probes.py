@@ -6,10 +6,12 @@ from midrib.kernels.banks import (
     LEVEL,
     Banks,
     Lean,
+    is_level,
     is_straight,
     lean_at,
     level_from,
     level_where_straight,
+    look_everywhere,
     way_from_nearer,
     way_to_level,
 )
@@ -117,7 +119,10 @@ def kink_beside(
     if not (at_p and at_q):
         return -1, 0.0, 0.0
     is_kink, x, y = level_where_straight(banks, ax, ay, bx, by)
-    if not is_kink:
+    look_everywhere(banks)  # it need not lie between the radii of p and q
+    dx, dy = (bx - ax), (by - ay)
+    is_between = 0.0 < (x - ax) * dx + (y - ay) * dy < dx * dx + dy * dy
+    if not (is_kink and is_between and is_level(lean_at(banks, x, y), banks.slack)):
         return -1, 0.0, 0.0
     hx, hy, x, y = ax / scale_x, ay / scale_y, x / scale_x, y / scale_y
     return walk_by(mesh, t, px, py, hx, hy, x, y), x, y
@@ -143,12 +148,15 @@ def worst_probe(
     span = length(qx - px, qy - py)
     probes, k = 1, 0
     worst, at, worst_lean = tolerance, -1.0, NOWHERE
-    while k < probes:
+    beside = 2 if tolerance == 0.0 else 0  # a kink next to an end shows there
+    while k < probes + beside:
         share = (k + 1.0) / (probes + 1.0)
+        if k >= probes:
+            share = BESIDE if k == probes else 1.0 - BESIDE
         x, y = px + share * (qx - px), py + share * (qy - py)
         lean = lean_at(banks, x, y)
         k += 1
-        if probes == 1:
+        if k == probes == 1:
             # The first probe, in the middle, says how many it takes.
             wanted = np.ceil(PROBES_PER_WIDTH * span / (lean.to_main + lean.to_auxiliary))
             if wanted > 1.0:
