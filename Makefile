@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 COMPILE := import midrib, shapely; midrib.collapse(shapely.box(0.0, 0.0, 3.0, 1.0))
-.PHONY: demo test lint bench quality dev lock clean
+.PHONY: demo test lint bench quality docs dev lock clean
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -m venv --clear $(VENV)
@@ -39,6 +39,13 @@ quality: $(VENV)/ready
 	$(BIN)/python benchmarks/limit.py
 	$(BIN)/python benchmarks/hatching.py
 
+# Warnings are errors, pages of names and figures that are gone among them: all are made anew.
+docs: $(VENV)/ready
+	rm -rf docs/api docs/gallery
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-docs.txt
+	$(BIN)/python -m sphinx -W --keep-going -q -b html -d out/doctrees docs out/docs
+	@echo "out/docs/index.html"
+
 dev: $(VENV)/ready
 	$(BIN)/pre-commit install
 
@@ -50,4 +57,4 @@ lock:
 	rm -rf $(VENV)-lock
 
 clean:
-	rm -rf $(VENV) out
+	rm -rf $(VENV) out docs/api docs/gallery

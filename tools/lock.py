@@ -1,4 +1,4 @@
-"""Write constraints.txt and constraints-bench.txt: versions and hashes, no index address."""
+"""Write constraints.txt and a lock for each of MORE: versions and hashes, no index address."""
 
 import subprocess
 import sys
@@ -8,6 +8,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 BUILD = ["hatchling", "editables", "codespell"]
+MORE = ("bench", "docs")  # dependency groups that are installed on top, when they are needed
 
 
 def compile_to(target: Path, requirements: list[str], *, hashes: bool) -> None:
@@ -27,14 +28,15 @@ def compile_to(target: Path, requirements: list[str], *, hashes: bool) -> None:
 
 
 def main() -> None:
-    """Resolve what the project, its tests and its checks need; then its benchmarks."""
+    """Resolve what the project, its tests and its checks need; then each of the other groups."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     groups = project["dependency-groups"]
     base = [*project["project"]["dependencies"], *groups["test"], *groups["lint"], *BUILD]
     compile_to(ROOT / "constraints.txt", base, hashes=True)
     pinned = (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines()
     versions = [line.split(" ")[0] for line in pinned if "==" in line]
-    compile_to(ROOT / "constraints-bench.txt", [*versions, *groups["bench"]], hashes=True)
+    for name in MORE:
+        compile_to(ROOT / f"constraints-{name}.txt", [*versions, *groups[name]], hashes=True)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """The paper's Figures 3 to 7 on areas with the traits that its text describes.
 
 Source: M. M. Buczek, Geodesy and Cartography 66(1), 2017, sections 3 and 4. The paper gives no
-coordinates; the areas are ours.
+coordinates; the areas are ours, those of the gallery.
 """
 
 from collections.abc import Callable
@@ -9,6 +9,15 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import shapely
+from examples.gallery.shapes import (
+    NOTCH,
+    chain,
+    disjoint,
+    disturbed,
+    irregular,
+    polygonal,
+    variants,
+)
 from numpy.typing import NDArray
 from shapely import LineString, Point, box
 from shapely.affinity import translate
@@ -18,21 +27,6 @@ from tests.golden_files import difference, read_golden
 
 Lines = dict[str, LineString]
 TOLERANCE = 1e-6  # of golden files; the areas are some ten units long
-
-
-def chain(text: str) -> LineString:
-    """A chain from its numbers."""
-    return shapely.from_wkt(f"LINESTRING ({text})")
-
-
-def polygonal() -> Strip:
-    """Figure 3, and 2: main and auxiliary curve are the two sides of one polygon, sharp ends."""
-    return Strip(chain("0 0, 3 -1, 7 -1.5, 12 0"), chain("0 0, 2 1, 6 1.5, 9 2, 12 0"))
-
-
-def disjoint() -> Strip:
-    """Figure 1: two chains that do not meet."""
-    return Strip(chain("0 0, 4 0.5, 8 -0.5, 12 0"), chain("-1 3, 3 4, 7 2.5, 11 3.5"))
 
 
 def hidden() -> Strip:
@@ -62,16 +56,6 @@ def figure_4() -> tuple[Strip, Lines]:
     return strip, {"curve": minimal_radii(strip, count=60, end_clearance=None).line}
 
 
-def variants() -> dict[str, Strip]:
-    """Figure 5: one area, three main curves: too short, as long as the other, too long."""
-    area = box(0, 0, 12, 2)
-    return {
-        "short": Strip(chain("0 0, 12 0"), chain("0 0, 0 2, 12 2, 12 0"), area),
-        "even": Strip(chain("0 1, 0 0, 12 0, 12 1"), chain("0 1, 0 2, 12 2, 12 1"), area),
-        "long": Strip(chain("0 2, 0 0, 12 0, 12 2"), chain("0 2, 12 2"), area),
-    }
-
-
 def figure_5() -> tuple[Strip, Lines]:
     lines = {}
     for name, strip in variants().items():
@@ -81,28 +65,12 @@ def figure_5() -> tuple[Strip, Lines]:
     return variants()["even"], lines
 
 
-def irregular() -> Strip:
-    """Figure 6: sharp ends, uneven sides that come near each other."""
-    return Strip(
-        chain("0 0, 1 -1, 2.5 -0.8, 3 -2, 5 -2.2, 6 -1, 8 -1.6, 9.5 -0.4, 12 0.5"),
-        chain("0 0, 1.5 0.8, 3 0.4, 4 1.6, 5.5 0.2, 7 1.2, 9 1.5, 10 0.9, 12 0.5"),
-    )
-
-
 def figure_6() -> tuple[Strip, Lines]:
     strip = irregular()
     return strip, {"curve": minimal_radii(strip, count=48).line}
 
 
 SMOOTH = Strip(chain("0 0, 12 0"), chain("0 2, 12 2"))
-
-
-def disturbed() -> Strip:
-    """Figure 7: a notch in the main curve and one in the auxiliary curve."""
-    return Strip(chain("0 0, 3 0, 3.3 -1, 3.6 0, 12 0"), chain("0 2, 7.4 2, 7.7 3, 8 2, 12 2"))
-
-
-NOTCH = box(2.99, -2.0, 3.61, 0.0)
 
 
 def figure_7() -> tuple[Strip, Lines]:

@@ -39,7 +39,7 @@ class Curve:
 
     @cached_property
     def line(self) -> LineString:
-        """The curve: one line without branches, covered by the area."""
+        """The curve, one line without branches, covered by the area."""
         points, height = self._path.points, self._path.height
         return LineString(points if height is None else np.column_stack([points, height]))
 
