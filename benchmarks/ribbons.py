@@ -310,6 +310,7 @@ What is left, by position in its layer:
 
 """
 SQUARE = "a wide flat end: the line leads to its middle, the medial axis into its corners"
+FIELD = "a square field with 14 buildings, no strip"
 TOUCH = "a hole that touches a flat end: half of it goes with either bank"
 OPEN = "straight across open water beside an island, where probes lead back to points it has"
 NARROW = "much narrower there than on average: the tolerance is .01 of the mean width"
@@ -319,8 +320,8 @@ CAUSES = {
     (ROADS, 140): SQUARE,
     (ROADS, 192): NARROW,
     (ROADS, 225): SQUARE,
-    (ROADS, 255): NARROW,
     (ROADS, 429): SQUARE,
+    (ROADS, 447): FIELD,
     (ROADS, 836): TOUCH,
     ("water and streets, Heidelberg", 31): SQUARE,
     (JUNCTIONS, 209): THREAD,
