@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from midrib.curves.collapse import Joint, Problem, collapse
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
+    from midrib.curves.network import network
     from midrib.curves.skeletons import Skeleton, skeleton
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.drawing.slopes import draw_slopes
@@ -47,6 +48,7 @@ __all__ = [
     "methods",
     "minimal_radii",
     "minimal_radii_3d",
+    "network",
     "profile",
     "read_slopes",
     "skeleton",
@@ -78,6 +80,7 @@ HOME = {
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
+    "network": "midrib.curves.network",
     "profile": "midrib.profiles",
     "read_slopes": "midrib.formats.slopes",
     "skeleton": "midrib.curves.skeletons",

@@ -9,6 +9,7 @@ from midrib.cli.check import check
 from midrib.cli.collapse import collapse
 from midrib.cli.compare import compare
 from midrib.cli.hatch import hatch
+from midrib.cli.network import network
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
 
@@ -33,6 +34,17 @@ app.command(
     "midrib collapse roads.gpkg out.gpkg --connect\n\n"
     "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)
+app.command(
+    help="Find the centre lines of networks: roads with their crossings, one feature from node to "
+    "node.\n\n"
+    "Attributes and CRS are kept. New columns: from_node and to_node, length, width_mean (in units "
+    "of the CRS, metres if it is geographic) and status. Nodes go to a layer, or a file, …_nodes: "
+    "node, and ways, how many lines lead there. Areas that are refused go to …_refused, with the "
+    "reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib network streets.gpkg lines.gpkg --layer carriageway --dissolve\n\n"
+    "midrib network rivers.gpkg lines.parquet --min-branch-length 200m",
+)(network)
 app.command(
     help="Measure the width of areas along their lines: a table of stations and widths.\n\n"
     "Columns: feature (number in the file, from 0) and part; station along the line; x, y and z if "

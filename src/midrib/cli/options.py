@@ -19,6 +19,7 @@ __all__ = [
     "ComparisonOut",
     "Connect",
     "Count",
+    "Dissolve",
     "DrawingOut",
     "DrawingRule",
     "End",
@@ -39,6 +40,7 @@ __all__ = [
     "Identifier",
     "LargestGap",
     "Layer",
+    "LeastBranch",
     "LeastGap",
     "LeastLength",
     "Letter",
@@ -48,6 +50,7 @@ __all__ = [
     "MapScale",
     "Mean",
     "MeanOption",
+    "Merge",
     "Method",
     "Methods",
     "Offset",
@@ -61,7 +64,9 @@ __all__ = [
     "RuleOption",
     "Scale",
     "ShortRatio",
+    "Significance",
     "Simplify",
+    "SkeletonMethod",
     "SlopesIn",
     "Smooth",
     "Source",
@@ -398,6 +403,40 @@ Connect: TypeAlias = Annotated[
         metavar="",
         help="Lines of areas that share an edge meet; joints, and edges without one, go to a "
         "layer, or a file, …_joints.",
+    ),
+]
+
+# How a network is made
+
+Dissolve: TypeAlias = Annotated[
+    bool,
+    of_layers(
+        "--dissolve",
+        metavar="",
+        help="All areas as one: those that touch are one network, without their attributes.",
+    ),
+]
+SkeletonMethod: TypeAlias = Annotated[
+    str, of_line(metavar="NAME", help="One of [bold]midrib methods[/] that have branches.")
+]
+Merge: TypeAlias = Annotated[
+    float,
+    of_line(
+        metavar="N",
+        help="Junctions are one crossing up to so many times the sum of their radii apart, twice "
+        "as many where all arms lead to one point. 0 keeps those of the skeleton.",
+    ),
+]
+LeastBranch: TypeAlias = Annotated[
+    str | None,
+    of_line("--min-branch-length", metavar="LENGTH", help="Leave out shorter dead ends."),
+]
+Significance: TypeAlias = Annotated[
+    float,
+    of_line(
+        metavar="N",
+        help="Leave out dead ends that reach less than so many radii from their junction; a "
+        "corner reaches 1.41.",
     ),
 ]
 
