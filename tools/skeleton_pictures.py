@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Point, Polygon, box
 
-from midrib import network, skeleton
+from midrib import network, partial_collapse, skeleton
 from midrib.figures.paper import save
 from midrib.types import Floats
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
 WIDTH = 200.0 / 25.4  # inches
 FILL, OUTLINE, BRANCH, LINE, NODE = "#eef1ea", "#b9c0b0", "#8e44ad", "#000000", "#1e9e58"
+WATER = "#9ecae1"
 
 
 def road(*points: tuple[float, float], width: float = 4.0) -> Polygon:
@@ -108,10 +109,41 @@ def draw_network(path: Path) -> None:
     finish(figure, path)
 
 
+def river() -> Polygon:
+    """Make a river that widens into two lakes, with an arm, an island and a mouth."""
+    x = np.linspace(0.0, 150.0, 301)
+    middle = np.column_stack([x, 9.0 * np.sin(x / 17.0) + 3.0 * np.sin(x / 5.0)])
+    radius = 1.6 + 7.0 * np.exp(-(((x - 38.0) / 11.0) ** 2)) + 5.0 * np.exp(-(((x - 96) / 9) ** 2))
+    radius += 0.05 * np.clip(x - 120.0, 0.0, None) + 0.3 * np.sin(x / 2.3)
+    discs = [Point(p).buffer(r) for p, r in zip(middle, radius, strict=True)]
+    arm = np.column_stack([np.linspace(92.0, 122.0, 80), np.linspace(-6.0, -22.0, 80)])
+    arm[:, 1] += 2.0 * np.sin(arm[:, 0] / 3.0)
+    discs += [Point(p).buffer(1.1 + 0.01 * k) for k, p in enumerate(arm[::-1])]
+    area = shapely.union_all(discs).simplify(0.05)
+    island = shapely.affinity.scale(Point(34.0, 9.0).buffer(1.6), 2.0, 1.0)
+    return area.difference(island.simplify(0.05))
+
+
+def draw_partial(path: Path) -> None:
+    """Draw a river, what is left of it at two widths, and lines of the rest."""
+    area = river()
+    figure, panels = sheet(area, 3, 1)
+    for axes, width in zip(panels, (3.0, 6.0, 12.0), strict=True):
+        found = partial_collapse(area, width)
+        fill(axes, area, "white")
+        if not found.areas.is_empty:
+            fill(axes, found.areas, WATER)
+        stroke(axes, found.lines, LINE, 0.9)
+        west, south = area.bounds[:2]
+        axes.plot([west, west + width], [south, south], color=NODE, linewidth=2.5)
+    finish(figure, path)
+
+
 def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
     draw_network(FOLDER / "network.svg")
+    draw_partial(FOLDER / "partial.svg")
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.network import network
+    from midrib.curves.partial import Partial, partial_collapse
     from midrib.curves.skeletons import Skeleton, skeleton
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.drawing.slopes import draw_slopes
@@ -31,6 +32,7 @@ __all__ = [
     "Finding",
     "Hatching",
     "Joint",
+    "Partial",
     "Problem",
     "Profile",
     "Skeleton",
@@ -49,6 +51,7 @@ __all__ = [
     "minimal_radii",
     "minimal_radii_3d",
     "network",
+    "partial_collapse",
     "profile",
     "read_slopes",
     "skeleton",
@@ -64,6 +67,7 @@ HOME = {
     "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
+    "Partial": "midrib.curves.partial",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
     "Skeleton": "midrib.curves.skeletons",
@@ -81,6 +85,7 @@ HOME = {
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
     "network": "midrib.curves.network",
+    "partial_collapse": "midrib.curves.partial",
     "profile": "midrib.profiles",
     "read_slopes": "midrib.formats.slopes",
     "skeleton": "midrib.curves.skeletons",

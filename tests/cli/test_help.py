@@ -12,7 +12,17 @@ import pytest
 
 import midrib
 
-NAMES = ("check", "collapse", "compare", "hatch", "methods", "network", "profile", "standards")
+NAMES = (
+    "check",
+    "collapse",
+    "compare",
+    "hatch",
+    "methods",
+    "network",
+    "partial",
+    "profile",
+    "standards",
+)
 PAGES: dict[str, list[str]] = {"midrib": []} | {name: [name] for name in NAMES}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")
 

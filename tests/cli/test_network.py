@@ -1,4 +1,4 @@
-"""The command ``midrib network``."""
+"""The commands ``midrib network`` and ``midrib partial``."""
 
 from pathlib import Path
 
@@ -96,3 +96,40 @@ def test_a_foreign_file_is_not_replaced_by_nodes(midrib: Runner, tmp_path: Path)
     foreign.unlink()
     for _ in range(2):
         assert midrib("network", source, out, "--overwrite").code == 0
+
+
+DUMBBELL = "POLYGON ((0 0, 4 0, 4 1, 9 1, 9 0, 13 0, 13 4, 9 4, 9 3, 4 3, 4 4, 0 4, 0 0))"
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "parquet", "shp"])
+def test_wide_parts_and_lines_are_layers(ending: str, midrib: Runner, tmp_path: Path) -> None:
+    source = write(tmp_path / "in.gpkg", [FAR, None, DUMBBELL, BOW_TIE])
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("partial", source, out, "--narrower-than", "300cm")
+    assert outcome.code == 1
+    assert "2 lines of 4 features, 1 refused" in outcome.err
+    assert "2 areas that are wider" in outcome.err
+    _, rows, lines = read_all(out)
+    assert rows["number"].to_pylist() == [0, 2]
+    assert lines[1].equals(shapely.from_wkt("LINESTRING (4 2, 9 2)"))
+    place = out if ending == "gpkg" else tmp_path / f"out_areas.{ending}"
+    layer, rows, areas = read_all(place, "some_areas" if ending == "gpkg" else None)
+    assert crs_name(layer.crs) == "Amersfoort / RD New"
+    assert rows["number"].to_pylist() == [2, 2]
+    assert rows["part"].to_pylist() == [0, 1]
+    assert shapely.area(areas).tolist() == [16, 16]
+
+
+def test_the_width_is_needed_and_is_a_length(midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [DUMBBELL]), tmp_path / "out.gpkg"
+    outcome = midrib("partial", source, out)
+    assert (outcome.code, "Missing option '--narrower-than'" in outcome.err) == (2, True)
+    outcome = midrib("partial", source, out, "--narrower-than", "wide")
+    assert (outcome.code, "--narrower-than is 'wide', expected a number" in outcome.err) == (
+        2,
+        True,
+    )
+    assert not out.exists()
+    options = ("--narrower-than", "3", "--min-length", "8")
+    assert midrib("partial", source, out, *options).code == 0
+    assert shapely.area(read_all(out, "some_areas")[2]).tolist() == [42]

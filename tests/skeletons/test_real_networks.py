@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 import shapely
 
-from midrib import network, skeleton
+from midrib import collapse, network, partial_collapse, skeleton
+from midrib.measures import mean_width
 from tests.skeletons.test_networks import cycles, meets_at_nodes_only, nodes_of
+from tests.skeletons.test_partial import check as check_partial
 
 geopandas = pytest.importorskip("geopandas")
 
@@ -72,3 +74,21 @@ def test_rivers_and_lakes_have_networks(name: str) -> None:
     shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
     few = shapely.get_num_coordinates(shapes) <= MOST_VERTICES
     check(shapes[shapely.is_valid(shapes) & few][::6], geographic=True)
+
+
+@pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
+@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
+def test_rivers_and_lakes_are_divided_at_any_width(name: str, share: float) -> None:
+    shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
+    few = shapely.get_num_coordinates(shapes) <= MOST_VERTICES
+    both = 0
+    for area in shapes[shapely.is_valid(shapes) & few][::12]:
+        width = share * mean_width(collapse(area, geographic=True), area, geographic=True)
+        found = check_partial(area, width, geographic=True)
+        both += not (found.areas.is_empty or found.lines.is_empty)
+        if share < 2.0:  # parts that are long enough at both widths
+            less = partial_collapse(
+                area, 1.3 * width, min_length=width, tolerance=width / 1e3, geographic=True
+            )
+            assert less.areas.difference(found.areas).area <= 1e-6 * area.area
+    assert both >= (3 if share == 2.0 else 20)

@@ -10,6 +10,7 @@ from midrib.cli.collapse import collapse
 from midrib.cli.compare import compare
 from midrib.cli.hatch import hatch
 from midrib.cli.network import network
+from midrib.cli.partial import partial
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
 
@@ -45,6 +46,16 @@ app.command(
     epilog="Examples:\n\nmidrib network streets.gpkg lines.gpkg --layer carriageway --dissolve\n\n"
     "midrib network rivers.gpkg lines.parquet --min-branch-length 200m",
 )(network)
+app.command(
+    help="Collapse the parts of areas that are narrower than a width to lines, and keep the "
+    "others: for maps at a smaller scale.\n\n"
+    "OUT has the lines, one feature from node to node, as of [bold]midrib network[/]; the parts "
+    "that are wider go to a layer, or a file, …_areas, one feature a part, with the attributes of "
+    "their area and the number of the part. Each line ends in a vertex of the part it leads to. "
+    "Areas that are refused go to …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
+)(partial)
 app.command(
     help="Measure the width of areas along their lines: a table of stations and widths.\n\n"
     "Columns: feature (number in the file, from 0) and part; station along the line; x, y and z if "

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Geometries
     from midrib.types import Floats
 
-__all__ = ["Nodes", "check_network", "dissolved", "network_layer"]
+__all__ = ["Nodes", "add_pieces", "check_network", "dissolved", "network_layer"]
 
 
 class Nodes:
@@ -86,9 +86,6 @@ def network_layer(
     found, problems = network(areas, method, on_error="report", geographic=geographic, **options)
     refused = dict(batch.unreadable)
     status = statuses(batch, problems, refused)
-    found[list(refused)] = [
-        keep if keep and not keep.is_empty else None for keep in found[list(refused)]
-    ]
     add_pieces(results, nodes, batch, found, status, geographic)
     add_refused(results, batch, refused)
     results.n_features += len(areas)

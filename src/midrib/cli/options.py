@@ -43,6 +43,7 @@ __all__ = [
     "LeastBranch",
     "LeastGap",
     "LeastLength",
+    "LeastPart",
     "Letter",
     "LineFigure",
     "LinesOut",
@@ -53,6 +54,7 @@ __all__ = [
     "Merge",
     "Method",
     "Methods",
+    "NarrowerThan",
     "Offset",
     "OneFeature",
     "OutLayer",
@@ -425,6 +427,25 @@ Merge: TypeAlias = Annotated[
         metavar="N",
         help="Junctions are one crossing up to so many times the sum of their radii apart, twice "
         "as many where all arms lead to one point. 0 keeps those of the skeleton.",
+    ),
+]
+NarrowerThan: TypeAlias = Annotated[
+    str,
+    of_line(
+        "--narrower-than",
+        metavar="LENGTH",
+        help="Parts that are less wide become lines: 20m, 50ft; a plain number is in units of the "
+        "CRS, metres if it is geographic.",
+        show_default=False,
+    ),
+]
+LeastPart: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        "--min-length",
+        metavar="LENGTH",
+        help="Shorter parts go with what is beside them, unless they are 1.25 times as wide as "
+        "that. As long as it is wide unless you say otherwise.",
     ),
 ]
 LeastBranch: TypeAlias = Annotated[

@@ -26,7 +26,7 @@ from midrib.types import Bools, Floats, Ints
 __all__ = ["Arm", "Crossing", "Net", "Stretch", "arms_of", "crossings_of", "hub_of", "net_of"]
 
 JUNCTION = 3  # ways of a point that is one
-LOOK = 4.0  # radii of the crossing that an arm is looked at for where it is narrow
+LOOK = 2.5  # radii of the crossing that an arm is looked at for where it is narrow
 SAMPLES = 97
 NARROW = 1.01  # times the least radius of an arm
 ALONG = 2.0  # radii of an arm over which its direction is taken

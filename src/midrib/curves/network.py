@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from midrib.layout import Layout, Scale
     from midrib.types import Floats
 
-__all__ = ["network"]
+__all__ = ["check_merge", "lines_of_graph", "network", "with_heights"]
 
 JUNCTION = 3  # ways of a point that is one
 
@@ -99,9 +99,7 @@ def network(
     'MULTILINESTRING ((0 1, 5 1), (5 1, 5 8), (5 1, 9 1))'
     """
     check_on_error(on_error)
-    if not is_number(merge) or not 0.0 <= merge < np.inf:
-        msg = f"merge is {shown(merge)}, expected a number of 0 or more"
-        raise ParameterError(msg)
+    check_merge(merge)
     find_graph = graph_finder(method, **options)
     prune = pruning(min_branch_length, min_significance)
 
@@ -120,6 +118,13 @@ def network(
         networks[i] = MultiLineString(lines) if lines or is_empty else None
     result = taken.given_back(networks)
     return result if on_error == "raise" else (result, log.problems)
+
+
+def check_merge(merge: Any) -> None:
+    """Refuse what is no share of the radii of junctions."""
+    if not is_number(merge) or not 0.0 <= merge < np.inf:
+        msg = f"merge is {shown(merge)}, expected a number of 0 or more"
+        raise ParameterError(msg)
 
 
 def lines_of_graph(

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from shapely import Polygon
+from shapely import MultiPolygon, Polygon
 
 from midrib.curves.graphs import Graph
 from midrib.curves.junctions import Crossing, Net, Stretch, arms_of, crossings_of, hub_of, net_of
@@ -19,6 +19,7 @@ __all__ = ["network_lines"]
 
 STRAIGHT = 2.0**-36  # of the extent: a vertex this near to the line between its neighbours goes
 INWARDS = (0.0, 1.0, 4.0, 16.0, 64.0)  # roundings of a coordinate, to come inside
+NONE = np.empty(0, dtype=np.intp)
 TIP = 1  # ways of a point that is one
 SAMPLES = 65  # of half a dead end
 SIGNIFICANT = 2.0  # radii that something reaches that is no corner, a corner reaches 1.41
@@ -42,7 +43,7 @@ class Change(NamedTuple):
 class Site(NamedTuple):
     """The area, to be asked what it covers."""
 
-    area: Polygon  # prepared
+    area: Polygon | MultiPolygon  # prepared
     walls: shapely.STRtree  # segments of its boundary
     scale: Floats  # (2,)
     extent: float
@@ -52,17 +53,24 @@ class Site(NamedTuple):
         return bool(self.area.covers(shapely.linestrings(points)))
 
 
-def network_lines(graph: Graph, area: Polygon, scale: Scale, overlap: float) -> list[Floats]:
+def network_lines(
+    graph: Graph,
+    area: Polygon | MultiPolygon,
+    scale: Scale,
+    overlap: float,
+    fixed: Ints = NONE,
+) -> list[Floats]:
     """Lines between the nodes of a network.
 
     Parameters
     ----------
     graph : Graph
         A skeleton of the area, without the branches that lead into corners.
-    area : Polygon
+    area : Polygon or MultiPolygon
         A valid one.
     scale : lengths of one unit of x and of y
     overlap : junctions are one crossing up to so many times the sum of their radii
+    fixed : rows of points that are no dead ends, though one edge leads there
 
     Returns
     -------
@@ -72,9 +80,8 @@ def network_lines(graph: Graph, area: Polygon, scale: Scale, overlap: float) -> 
     site, net = site_of(area, scale), net_of(graph, scale)
     ends = net.ends()
     changes = [crossing_change(net, c, ends, site) for c in crossings_of(net, overlap)]
-    changes += [
-        tip_change(net, int(b), int(e), site) for b, e in np.argwhere(net.degree[ends] == TIP)
-    ]
+    is_tip = (net.degree[ends] == TIP) & ~np.isin(ends, fixed)
+    changes += [tip_change(net, int(b), int(end), site) for b, end in np.argwhere(is_tip)]
     changes = [change for change in changes if change.endings]
     while True:
         gone = {int(b) for change in changes for b in change.inner}
@@ -91,11 +98,12 @@ def network_lines(graph: Graph, area: Polygon, scale: Scale, overlap: float) -> 
         changes = sound
 
 
-def site_of(area: Polygon, scale: Scale) -> Site:
+def site_of(area: Polygon | MultiPolygon, scale: Scale) -> Site:
     """Site of an area."""
     area = shapely.force_2d(area)  # a copy, since it will be prepared
     shapely.prepare(area)
-    points, ring = shapely.get_coordinates(shapely.get_rings(area), return_index=True)
+    rings = shapely.get_rings(shapely.get_parts(area))
+    points, ring = shapely.get_coordinates(rings, return_index=True)
     goes_on = np.flatnonzero(ring[:-1] == ring[1:])
     segments = shapely.linestrings(np.stack([points[goes_on], points[goes_on + 1]], axis=1))
     low_x, low_y, high_x, high_y = area.bounds
@@ -202,7 +210,7 @@ def is_straight(chain: Floats, at: int, site: Site) -> bool:
     )
 
 
-def wrong(lines: list[Floats], area: Polygon) -> Ints:
+def wrong(lines: list[Floats], area: Polygon | MultiPolygon) -> Ints:
     """Lines that are not inside, cross themselves, or meet others elsewhere than at common ends."""
     shapes = np.array([shapely.linestrings(line) for line in lines])
     bad = ~shapely.covers(area, shapes) | ~shapely.is_simple(shapes)
