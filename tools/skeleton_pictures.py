@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/networks.md and docs/labels.md.
+"""Draw the pictures of docs/networks.md and docs/labels.md, and of kinks in docs/methods.md.
 
 python tools/skeleton_pictures.py
 """
@@ -10,7 +10,8 @@ import numpy as np
 import shapely
 from shapely import LineString, Point, Polygon, box
 
-from midrib import network, partial_collapse, skeleton
+from midrib import collapse, network, partial_collapse, skeleton, split
+from midrib.curves.kinks import kink_pairs
 from midrib.figures.paper import save
 from midrib.types import Floats
 
@@ -139,11 +140,35 @@ def draw_partial(path: Path) -> None:
     finish(figure, path)
 
 
+def wall() -> Polygon:
+    """Make a wall that turns in corners, with a buttress that only one side has."""
+    middle = [(0, 0), (34, 0), (40, 20), (76, 20), (76, -4), (58, -4)]
+    return road(*middle, width=5.0).union(box(52, 22, 58, 25))
+
+
+def draw_kinks(path: Path) -> None:
+    """Draw the mean curves of a wall: in proportion, and from pair to pair of kinks."""
+    area = wall()
+    strip = split(area)
+    figure, (left, right) = sheet(area, 1, 2)
+    for axes in (left, right):
+        fill(axes, area)
+    stroke(left, collapse(area, "mean-curve"), LINE, 0.9)
+    pairs = zip(*kink_pairs(strip.layout), strict=True)
+    for at, beside in pairs:
+        ends = strip.main.interpolate(at), strip.auxiliary.interpolate(beside)
+        stroke(right, LineString(ends), BRANCH, 0.6)
+        dots(right, np.array([end.coords[0] for end in ends]), BRANCH, 8.0)
+    stroke(right, collapse(area, "mean-curve", mean="kinks"), LINE, 0.9)
+    finish(figure, path)
+
+
 def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
     draw_network(FOLDER / "network.svg")
     draw_partial(FOLDER / "partial.svg")
+    draw_kinks(FOLDER / "kinks.svg")
 
 
 if __name__ == "__main__":

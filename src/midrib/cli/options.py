@@ -117,6 +117,7 @@ class Mean(StrEnum):
 
     radii = "radii"
     proportional = "proportional"
+    kinks = "kinks"
     same_height = "same-height"
 
 
@@ -363,7 +364,9 @@ Tolerance: TypeAlias = Annotated[
 ]
 MeanOption: TypeAlias = Annotated[
     Mean | None,
-    of_line(metavar="NAME", help="Mean of a symmetric line: radii, proportional, same-height."),
+    of_line(
+        metavar="NAME", help="Mean of a symmetric line: radii, proportional, kinks, same-height."
+    ),
 ]
 HolesOption: TypeAlias = Annotated[
     Holes,
