@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Point, Polygon, box
 
-from midrib import collapse, network, partial_collapse, skeleton, split
+from midrib import collapse, control_points, label_line, network, partial_collapse, skeleton, split
 from midrib.curves.kinks import kink_pairs
 from midrib.figures.paper import save
 from midrib.types import Floats
@@ -163,12 +163,30 @@ def draw_kinks(path: Path) -> None:
     finish(figure, path)
 
 
+def draw_labels(path: Path) -> None:
+    """Draw the name of a lake along its label line, and control points of its line."""
+    area = river()
+    figure, (upper, lower) = sheet(area, 2, 1)
+    label = label_line(area, length=26.0)
+    for axes in (upper, lower):
+        fill(axes, area, WATER)
+    fill(upper, label.lines.buffer(label.heights / 2.0, cap_style="flat"), "#fdd0a2")
+    stroke(upper, label.lines, LINE, 0.9)
+    line = collapse(area)
+    stroke(lower, line, OUTLINE, 2.5)
+    found = control_points(line, count=12, area=area)
+    stroke(lower, found.line, LINE, 0.9)
+    dots(lower, found.points)
+    finish(figure, path)
+
+
 def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
     draw_network(FOLDER / "network.svg")
     draw_partial(FOLDER / "partial.svg")
     draw_kinks(FOLDER / "kinks.svg")
+    draw_labels(FOLDER / "labels.svg")
 
 
 if __name__ == "__main__":

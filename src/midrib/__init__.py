@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from midrib import measures
     from midrib.comparison import Comparison, compare
     from midrib.curves.collapse import Joint, Problem, collapse
+    from midrib.curves.control import ControlPoints, control_points
+    from midrib.curves.label import Labels, label_line
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.network import network
@@ -28,10 +30,12 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Comparison",
+    "ControlPoints",
     "Curve",
     "Finding",
     "Hatching",
     "Joint",
+    "Labels",
     "Partial",
     "Problem",
     "Profile",
@@ -44,8 +48,10 @@ __all__ = [
     "check_slopes",
     "collapse",
     "compare",
+    "control_points",
     "draw_slopes",
     "hatch",
+    "label_line",
     "measures",
     "methods",
     "minimal_radii",
@@ -63,10 +69,12 @@ __all__ = [
 
 HOME = {
     "Comparison": "midrib.comparison",
+    "ControlPoints": "midrib.curves.control",
     "Curve": "midrib.curves.minimal_radii",
     "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
+    "Labels": "midrib.curves.label",
     "Partial": "midrib.curves.partial",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
@@ -79,8 +87,10 @@ HOME = {
     "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
     "compare": "midrib.comparison",
+    "control_points": "midrib.curves.control",
     "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",
+    "label_line": "midrib.curves.label",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",

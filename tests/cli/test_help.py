@@ -17,9 +17,11 @@ NAMES = (
     "collapse",
     "compare",
     "hatch",
+    "label",
     "methods",
     "network",
     "partial",
+    "points",
     "profile",
     "standards",
 )

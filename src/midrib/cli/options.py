@@ -12,6 +12,7 @@ from typing import Annotated, TypeAlias
 import typer
 
 __all__ = [
+    "Aspect",
     "Centring",
     "CentringOption",
     "Channel",
@@ -38,6 +39,8 @@ __all__ = [
     "Holes",
     "HolesOption",
     "Identifier",
+    "LabelHeight",
+    "LabelLength",
     "LargestGap",
     "Layer",
     "LeastBranch",
@@ -62,6 +65,9 @@ __all__ = [
     "PaperSize",
     "Pattern",
     "Percent",
+    "PointCount",
+    "PointTolerance",
+    "PointsOut",
     "Quiet",
     "RuleOption",
     "Scale",
@@ -461,6 +467,38 @@ Significance: TypeAlias = Annotated[
         metavar="N",
         help="Leave out dead ends that reach less than so many radii from their junction; a "
         "corner reaches 1.41.",
+    ),
+]
+
+# Labels and points
+
+LabelLength: TypeAlias = Annotated[
+    str | None,
+    of_line("--length", metavar="LENGTH", help="Of the text; as long as fits unless given."),
+]
+LabelHeight: TypeAlias = Annotated[
+    str | None,
+    of_line("--height", metavar="LENGTH", help="Of the text; as high as fits unless given."),
+]
+Aspect: TypeAlias = Annotated[
+    float, of_line(metavar="N", help="Length over height of the text, where neither is given.")
+]
+PointsOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the points; its ending chooses the format: .gpkg .parquet .geojson .csv …",
+    ),
+]
+PointCount: TypeAlias = Annotated[
+    int | None, of_line("--count", metavar="N", help="So many points of each line at most.")
+]
+PointTolerance: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        "--tolerance",
+        metavar="LENGTH",
+        help="Or: as few as keep the whole line this near to the line through them.",
     ),
 ]
 

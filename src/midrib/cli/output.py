@@ -140,7 +140,12 @@ class Places(NamedTuple):
         return is_drawing or any(name.lower().startswith(mark) for name in column_names(path))
 
     def write(
-        self, results: "Results", layer: str, report: "Report", second: Second | None = None
+        self,
+        results: "Results",
+        layer: str,
+        report: "Report",
+        second: Second | None = None,
+        kind: str | None = None,
     ) -> None:
         """Write everything, whole or not at all; then sum up."""
         source = results.source
@@ -149,7 +154,7 @@ class Places(NamedTuple):
             pa.concat_tables(results.attributes),
             np.concatenate(results.lines),
             source.geometry,
-            LINE_OF.get(source.kind, "LineString"),
+            kind or LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
         with staged(self.out.parent, stale=self.stale) as stage:
@@ -163,8 +168,8 @@ class Places(NamedTuple):
                 )
                 apart, lost = one_kind_each(refused, format_of(self.out))
                 notes += lost
-                for kind, some in apart.items():
-                    path = self.all_refused.get(kind, self.out)
+                for name, some in apart.items():
+                    path = self.all_refused.get(name, self.out)
                     notes += write_layer(stage / path.name, some)
                     where.append(self.where(some.layer, path))
             if second is not None:
