@@ -57,7 +57,7 @@ these areas' stations.
 """
 CONCLUSION = """\
 The paper's curve follows the trunk better without bays, most of all on rivers and lakes: its median
-p95 is a quarter to a third smaller there. So `collapse` leaves them out by default with
+p95 is a quarter to two fifths smaller there. So `collapse` leaves them out by default with
 `centring="none"`. The symmetric curve gains nothing that lasts: the curve from the other bank makes
 good what one bank's bays do, and radii are missing where one is left out. The centred line comes
 from radii whose Q never travel back and from probes in between, so that radii from bays are not

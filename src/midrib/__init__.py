@@ -10,8 +10,12 @@ if TYPE_CHECKING:
     from midrib import measures
     from midrib.comparison import Comparison, compare
     from midrib.curves.collapse import Joint, Problem, collapse
+    from midrib.curves.control import ControlPoints, control_points
+    from midrib.curves.label import Labels, label_line
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
+    from midrib.curves.network import network
+    from midrib.curves.partial import Partial, partial_collapse
     from midrib.curves.skeletons import Skeleton, skeleton
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.drawing.slopes import draw_slopes
@@ -26,10 +30,13 @@ if TYPE_CHECKING:
 __version__ = "0.1.0"
 __all__ = [
     "Comparison",
+    "ControlPoints",
     "Curve",
     "Finding",
     "Hatching",
     "Joint",
+    "Labels",
+    "Partial",
     "Problem",
     "Profile",
     "Skeleton",
@@ -41,12 +48,16 @@ __all__ = [
     "check_slopes",
     "collapse",
     "compare",
+    "control_points",
     "draw_slopes",
     "hatch",
+    "label_line",
     "measures",
     "methods",
     "minimal_radii",
     "minimal_radii_3d",
+    "network",
+    "partial_collapse",
     "profile",
     "read_slopes",
     "skeleton",
@@ -58,10 +69,13 @@ __all__ = [
 
 HOME = {
     "Comparison": "midrib.comparison",
+    "ControlPoints": "midrib.curves.control",
     "Curve": "midrib.curves.minimal_radii",
     "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.collapse",
+    "Labels": "midrib.curves.label",
+    "Partial": "midrib.curves.partial",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
     "Skeleton": "midrib.curves.skeletons",
@@ -73,11 +87,15 @@ HOME = {
     "check_slopes": "midrib.hatching.checking",
     "collapse": "midrib.curves.collapse",
     "compare": "midrib.comparison",
+    "control_points": "midrib.curves.control",
     "draw_slopes": "midrib.formats.drawing.slopes",
     "hatch": "midrib.hatching.hatch",
+    "label_line": "midrib.curves.label",
     "methods": "midrib.curves.methods",
     "minimal_radii": "midrib.curves.minimal_radii",
     "minimal_radii_3d": "midrib.curves.space",
+    "network": "midrib.curves.network",
+    "partial_collapse": "midrib.curves.partial",
     "profile": "midrib.profiles",
     "read_slopes": "midrib.formats.slopes",
     "skeleton": "midrib.curves.skeletons",

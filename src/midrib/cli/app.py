@@ -9,6 +9,10 @@ from midrib.cli.check import check
 from midrib.cli.collapse import collapse
 from midrib.cli.compare import compare
 from midrib.cli.hatch import hatch
+from midrib.cli.label import label
+from midrib.cli.network import network
+from midrib.cli.partial import partial
+from midrib.cli.points import points
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
 
@@ -33,6 +37,46 @@ app.command(
     "midrib collapse roads.gpkg out.gpkg --connect\n\n"
     "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)
+app.command(
+    help="Find the centre lines of networks: roads with their crossings, one feature from node to "
+    "node.\n\n"
+    "Attributes and CRS are kept. New columns: from_node and to_node, length, width_mean (in units "
+    "of the CRS, metres if it is geographic) and status. Nodes go to a layer, or a file, …_nodes: "
+    "node, and ways, how many lines lead there. Areas that are refused go to …_refused, with the "
+    "reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib network streets.gpkg lines.gpkg --layer carriageway --dissolve\n\n"
+    "midrib network rivers.gpkg lines.parquet --min-branch-length 200m",
+)(network)
+app.command(
+    help="Collapse the parts of areas that are narrower than a width to lines, and keep the "
+    "others: for maps at a smaller scale.\n\n"
+    "OUT has the lines, one feature from node to node, as of [bold]midrib network[/]; the parts "
+    "that are wider go to a layer, or a file, …_areas, one feature a part, with the attributes of "
+    "their area and the number of the part. Each line ends in a vertex of the part it leads to. "
+    "Areas that are refused go to …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
+)(partial)
+app.command(
+    help="Find lines for the names of areas: curves with few bends along their widest parts.\n\n"
+    "Attributes and CRS are kept. New columns: length, height (of the text that fits there, in "
+    "units of the CRS, metres if it is geographic) and status. Areas without room for the text are "
+    "among those that are refused; they go to …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib label lakes.gpkg names.gpkg\n\n"
+    "midrib label lakes.gpkg names.gpkg --height 300m --length 4km",
+)(label)
+app.command(
+    help="Find control points of the lines of areas: the vertices that matter most.\n\n"
+    "One feature a point, in the order of the line, with the attributes of its area. New columns: "
+    "part (of the area), vertex (of the line, from 0), importance (the tolerance up to which the "
+    "point is needed; infinite at ends) and status. The line through the points of an area is "
+    "inside.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib points rivers.gpkg points.gpkg --count 12\n\n"
+    "midrib points rivers.gpkg points.gpkg --tolerance 5m",
+)(points)
 app.command(
     help="Measure the width of areas along their lines: a table of stations and widths.\n\n"
     "Columns: feature (number in the file, from 0) and part; station along the line; x, y and z if "

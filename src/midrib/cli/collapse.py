@@ -39,14 +39,14 @@ def collapse(
     """Collapse areas to lines: one line without branches inside each."""
     from midrib.cli.job import Results, check_options, collapse_layer
     from midrib.cli.lines import options_of_line
-    from midrib.cli.output import Places, draw
+    from midrib.cli.output import Places, draw, joints_of
     from midrib.cli.report import Report
     from midrib.formats.guides import guides_for
     from midrib.formats.reading import choose_layer, open_layer
 
     if connect:
         check_alone(main=main, ends=ends)
-    places = Places(source, out, figure, connect)
+    places = Places(source, out, figure, "joints" if connect else None)
     places.check(overwrite=overwrite, needs_m=width is WidthPlace.m)
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
@@ -61,7 +61,7 @@ def collapse(
         guides = guides_for(main, source, features)
         results = Results(features, has_m=width is WidthPlace.m)
         collapse_layer(results, method, options, guides, report, connect=connect)
-    places.write(results, out_layer or layer, report)
+    places.write(results, out_layer or layer, report, joints_of(results) if connect else None)
     if figure is not None:
         with open_layer(source, layer) as features:
             draw(features, guides, options | {"method": method, "connect": connect}, figure)

@@ -12,6 +12,7 @@ from typing import Annotated, TypeAlias
 import typer
 
 __all__ = [
+    "Aspect",
     "Centring",
     "CentringOption",
     "Channel",
@@ -19,6 +20,7 @@ __all__ = [
     "ComparisonOut",
     "Connect",
     "Count",
+    "Dissolve",
     "DrawingOut",
     "DrawingRule",
     "End",
@@ -37,10 +39,14 @@ __all__ = [
     "Holes",
     "HolesOption",
     "Identifier",
+    "LabelHeight",
+    "LabelLength",
     "LargestGap",
     "Layer",
+    "LeastBranch",
     "LeastGap",
     "LeastLength",
+    "LeastPart",
     "Letter",
     "LineFigure",
     "LinesOut",
@@ -48,8 +54,10 @@ __all__ = [
     "MapScale",
     "Mean",
     "MeanOption",
+    "Merge",
     "Method",
     "Methods",
+    "NarrowerThan",
     "Offset",
     "OneFeature",
     "OutLayer",
@@ -57,11 +65,16 @@ __all__ = [
     "PaperSize",
     "Pattern",
     "Percent",
+    "PointCount",
+    "PointTolerance",
+    "PointsOut",
     "Quiet",
     "RuleOption",
     "Scale",
     "ShortRatio",
+    "Significance",
     "Simplify",
+    "SkeletonMethod",
     "SkipOption",
     "SkipRule",
     "SlopesIn",
@@ -112,6 +125,7 @@ class Mean(StrEnum):
 
     radii = "radii"
     proportional = "proportional"
+    kinks = "kinks"
     same_height = "same-height"
 
 
@@ -365,7 +379,9 @@ Tolerance: TypeAlias = Annotated[
 ]
 MeanOption: TypeAlias = Annotated[
     Mean | None,
-    of_line(metavar="NAME", help="Mean of a symmetric line: radii, proportional, same-height."),
+    of_line(
+        metavar="NAME", help="Mean of a symmetric line: radii, proportional, kinks, same-height."
+    ),
 ]
 SkipOption: TypeAlias = Annotated[
     SkipRule | None,
@@ -415,6 +431,91 @@ Connect: TypeAlias = Annotated[
         metavar="",
         help="Lines of areas that share an edge meet; joints, and edges without one, go to a "
         "layer, or a file, …_joints.",
+    ),
+]
+
+# How a network is made
+
+Dissolve: TypeAlias = Annotated[
+    bool,
+    of_layers(
+        "--dissolve",
+        metavar="",
+        help="All areas as one: those that touch are one network, without their attributes.",
+    ),
+]
+SkeletonMethod: TypeAlias = Annotated[
+    str, of_line(metavar="NAME", help="One of [bold]midrib methods[/] that have branches.")
+]
+Merge: TypeAlias = Annotated[
+    float,
+    of_line(
+        metavar="N",
+        help="Junctions are one crossing up to so many times the sum of their radii apart, twice "
+        "as many where all arms lead to one point. 0 keeps those of the skeleton.",
+    ),
+]
+NarrowerThan: TypeAlias = Annotated[
+    str,
+    of_line(
+        "--narrower-than",
+        metavar="LENGTH",
+        help="Parts that are less wide become lines: 20m, 50ft; a plain number is in units of the "
+        "CRS, metres if it is geographic.",
+        show_default=False,
+    ),
+]
+LeastPart: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        "--min-length",
+        metavar="LENGTH",
+        help="Shorter parts go with what is beside them, unless they are 1.25 times as wide as "
+        "that. As long as it is wide unless you say otherwise.",
+    ),
+]
+LeastBranch: TypeAlias = Annotated[
+    str | None,
+    of_line("--min-branch-length", metavar="LENGTH", help="Leave out shorter dead ends."),
+]
+Significance: TypeAlias = Annotated[
+    float,
+    of_line(
+        metavar="N",
+        help="Leave out dead ends that reach less than so many radii from their junction; a "
+        "corner reaches 1.41.",
+    ),
+]
+
+# Labels and points
+
+LabelLength: TypeAlias = Annotated[
+    str | None,
+    of_line("--length", metavar="LENGTH", help="Of the text; as long as fits unless given."),
+]
+LabelHeight: TypeAlias = Annotated[
+    str | None,
+    of_line("--height", metavar="LENGTH", help="Of the text; as high as fits unless given."),
+]
+Aspect: TypeAlias = Annotated[
+    float, of_line(metavar="N", help="Length over height of the text, where neither is given.")
+]
+PointsOut: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the points; its ending chooses the format: .gpkg .parquet .geojson .csv …",
+    ),
+]
+PointCount: TypeAlias = Annotated[
+    int | None, of_line("--count", metavar="N", help="So many points of each line at most.")
+]
+PointTolerance: TypeAlias = Annotated[
+    str | None,
+    of_line(
+        "--tolerance",
+        metavar="LENGTH",
+        help="Or: as few as keep the whole line this near to the line through them.",
     ),
 ]
 

@@ -1,4 +1,4 @@
-"""Where the results of ``midrib collapse`` go: lines, refused areas, a figure, a summary."""
+"""Where results go: lines, refused areas, a second layer, a figure, a summary."""
 
 from collections import Counter
 from pathlib import Path
@@ -26,14 +26,25 @@ if TYPE_CHECKING:
     from midrib.cli.job import Results
     from midrib.cli.report import Report
     from midrib.formats.guides import Guides
-    from midrib.formats.reading import Source
+    from midrib.formats.reading import Geometries, Source
 
-__all__ = ["Places", "draw"]
+__all__ = ["Places", "Second", "draw", "joints_of"]
 
 LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
 REASON = "reason"  # the column that every layer of refused areas, or of joints, has
+# The column that tells a second layer of an earlier run, by the name of the layer.
+MARKS = {"joints": REASON, "nodes": "node", "areas": "part"}
 KILO = 1000.0
 MANY = 10_000.0  # from so many metres on, lengths are in kilometres
+
+
+class Second(NamedTuple):
+    """What goes into a layer beside the lines."""
+
+    attributes: pa.Table
+    geometries: "Geometries"
+    kind: str
+    summary: str
 
 
 class Places(NamedTuple):
@@ -42,17 +53,12 @@ class Places(NamedTuple):
     source: Path
     out: Path
     figure: Path | None
-    connect: bool = False
+    second: str | None = None  # what the name of a second layer ends in
 
     @property
     def refused(self) -> Path:
         """File for refused areas: OUT where its format has layers, else one beside it."""
         return self.beside("refused")
-
-    @property
-    def joints(self) -> Path:
-        """File for joints, likewise."""
-        return self.beside("joints")
 
     def beside(self, name: str) -> Path:
         """File for a second layer."""
@@ -63,8 +69,9 @@ class Places(NamedTuple):
     @property
     def all(self) -> list[Path]:
         """Every file for features that a run may write or remove, OUT first, each once."""
-        joints = [self.joints] if self.connect or self.has_old_joints else []
-        return [*dict.fromkeys([self.out, *self.all_refused.values(), *joints])]
+        second = [self.beside(self.second)] if self.second else []
+        old = [self.beside("joints")] if self.has_old_joints else []
+        return [*dict.fromkeys([self.out, *self.all_refused.values(), *second, *old])]
 
     @property
     def stale(self) -> list[Path]:
@@ -75,7 +82,7 @@ class Places(NamedTuple):
     @property
     def has_old_joints(self) -> bool:
         """Whether joints of an earlier run are in a file of their own."""
-        path = self.joints
+        path = self.beside("joints")
         if path == self.out or not path.exists() or format_of(path).is_drawing:
             return False
         return {*JOINT_COLUMNS} <= {*column_names(path)}
@@ -111,22 +118,35 @@ class Places(NamedTuple):
         check_free(self.all, "OUT", overwrite=overwrite)
         for path in self.all[1:]:
             if path.exists() and not self.may_replace(path):
-                what = "joints" if path == self.joints else "refused areas"
+                what = self.content(path)
                 msg = (
-                    f"{str(path)!r}, the place for {what}, has no column {REASON!r} and so "
-                    "is no output of an earlier run, expected it elsewhere"
+                    f"{str(path)!r}, the place for {what or 'refused areas'}, has no column "
+                    f"{MARKS.get(what, REASON)!r} and so is no output of an earlier run, expected "
+                    "it elsewhere"
                 )
                 raise ParameterError(msg)
         if self.figure is not None:
             check_figure(self.figure)
             check_free([self.figure], "--figure", overwrite=overwrite)
 
-    def may_replace(self, path: Path) -> bool:
-        """Whether a file has refused areas or joints of an earlier run; drawings do not tell."""
-        names = column_names(path)
-        return format_of(path).is_drawing or any(n.lower().startswith(REASON) for n in names)
+    def content(self, path: Path) -> str:
+        """Name of the second layer that a file is for, none if it is for refused areas."""
+        return next((name for name in MARKS if path == self.beside(name)), "")
 
-    def write(self, results: "Results", layer: str, report: "Report") -> None:
+    def may_replace(self, path: Path) -> bool:
+        """Whether a file is a second layer of an earlier run; drawings do not tell."""
+        mark = MARKS.get(self.content(path), REASON)
+        is_drawing = format_of(path).is_drawing
+        return is_drawing or any(name.lower().startswith(mark) for name in column_names(path))
+
+    def write(
+        self,
+        results: "Results",
+        layer: str,
+        report: "Report",
+        second: Second | None = None,
+        kind: str | None = None,
+    ) -> None:
         """Write everything, whole or not at all; then sum up."""
         source = results.source
         lines = Features(
@@ -134,7 +154,7 @@ class Places(NamedTuple):
             pa.concat_tables(results.attributes),
             np.concatenate(results.lines),
             source.geometry,
-            LINE_OF.get(source.kind, "LineString"),
+            kind or LINE_OF.get(source.kind, "LineString"),
             source.crs,
         )
         with staged(self.out.parent, stale=self.stale) as stage:
@@ -148,18 +168,20 @@ class Places(NamedTuple):
                 )
                 apart, lost = one_kind_each(refused, format_of(self.out))
                 notes += lost
-                for kind, some in apart.items():
-                    path = self.all_refused.get(kind, self.out)
+                for name, some in apart.items():
+                    path = self.all_refused.get(name, self.out)
                     notes += write_layer(stage / path.name, some)
                     where.append(self.where(some.layer, path))
-            if self.connect:
-                table, points = joint_features(results.joints)
-                joints = lines._replace(
-                    layer=f"{layer}_joints", attributes=table, geometries=points, kind="Point"
+            if second is not None:
+                more = lines._replace(
+                    layer=f"{layer}_{self.second}",
+                    attributes=second.attributes,
+                    geometries=second.geometries,
+                    kind=second.kind,
                 )
-                notes += write_layer(stage / self.joints.name, joints)
+                notes += write_layer(stage / self.beside(str(self.second)).name, more)
         if format_of(self.out).is_drawing:
-            kept = [self.refused] * (not where) + [self.joints] * (not self.connect)
+            kept = [self.refused] * (not where) + [self.beside("joints")] * (second is None)
             notes += [f"{p} was there before, it is left as it was" for p in kept if p.exists()]
         for note in dict.fromkeys(notes):
             report.say(f"note: {note}")
@@ -167,8 +189,9 @@ class Places(NamedTuple):
         report.say(f"written to {self.out}")
         if results.n_refused:
             report.say(f"refused areas, with reasons, in {' and '.join(where)}")
-        if self.connect:
-            report.say(f"{joints_text(results)}, in {self.where(f'{layer}_joints', self.joints)}")
+        if second is not None:
+            place = self.where(f"{layer}_{self.second}", self.beside(str(self.second)))
+            report.say(f"{second.summary}, in {place}")
 
     def where(self, layer: str, path: Path) -> str:
         """Say where a second layer is."""
@@ -201,13 +224,14 @@ def summary(results: "Results", seconds: float) -> str:
     )
 
 
-def joints_text(results: "Results") -> str:
-    """Count joints."""
+def joints_of(results: "Results") -> Second:
+    """Return the layer of joints, and of shared edges without one."""
     made = Counter(joint.kind for joint in results.joints)
-    return (
+    summary = (
         f"{made['end to end']} joints end to end, {made['side']} on the side, "
         f"{made['none']} shared edges without"
     )
+    return Second(*joint_features(results.joints), "Point", summary)
 
 
 def length_text(length: float, unit: Unit | None) -> str:

@@ -8,6 +8,7 @@
 
 proportional   share of the curve's own length: Rhino's mean curve
 same-height    how far along a direction: walls of towers
+kinks          the two sides themselves, from pair to pair of their kinks: see ``kinks``
 radii          main curve plus auxiliary curve that a radius cuts off: it belongs to both banks
                alike, so that the mean of a wedge's two curves lies on its bisector
 """
@@ -27,8 +28,8 @@ from midrib.types import Floats
 
 __all__ = ["Mean", "average", "check_mean"]
 
-Mean: TypeAlias = Literal["proportional", "same-height", "radii"] | tuple[float, float]
-MEANS = ("proportional", "same-height", "radii")
+Mean: TypeAlias = Literal["proportional", "same-height", "radii", "kinks"] | tuple[float, float]
+MEANS = ("proportional", "same-height", "radii", "kinks")
 
 
 def check_mean(mean: object, centring: str) -> None:
@@ -46,7 +47,7 @@ def check_mean(mean: object, centring: str) -> None:
     )
     if not is_direction and not (isinstance(mean, str) and mean in MEANS):
         msg = (
-            f"mean is {shown(mean)}, expected 'proportional', 'same-height', 'radii' or a "
+            f"mean is {shown(mean)}, expected 'proportional', 'same-height', 'radii', 'kinks' or a "
             "direction (dx, dy) for the same height along it"
         )
         raise ParameterError(msg)

@@ -16,6 +16,7 @@ from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
 from midrib.curves.finding import Finder, Found
 from midrib.curves.methods import finder_of
+from midrib.curves.taking import as_array, take
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
@@ -153,31 +154,27 @@ def collapse(
     >>> collapse([box(0, 0, 6, 2), None])
     array([<LINESTRING (0 1, 2 1, 4 1, 6 1)>, None], dtype=object)
     """
+    check_on_error(on_error)
+    check_connect(connect, along, options.get("ends", "caps"))
+    find, care = finder_of(method, **options), aftercare(simplify, smooth)
+    taken = take(areas, geographic)
+    log = Log(taken.labels, strict=on_error == "raise")
+    with interrupts.deferred():
+        flat = taken.array.ravel()
+        along = guides(along, flat.size)
+        lines = collapse_all(
+            flat, find, along, taken.geographic, log, care,
+            connect=connect, fills=options.get("holes") == "ignored",
+        )  # fmt: skip
+    result = taken.given_back(lines)
+    return result if on_error == "raise" else (result, log.problems)
+
+
+def check_on_error(on_error: Any) -> None:
+    """Refuse what is no way to tell of areas that are refused."""
     if not isinstance(on_error, str) or on_error not in ("raise", "report"):
         msg = f"on_error is {shown(on_error)}, expected 'raise' or 'report'"
         raise ParameterError(msg)
-    if geographic is not None:
-        check_flag(geographic, "geographic")
-    check_connect(connect, along, options.get("ends", "caps"))
-    find, care = finder_of(method, **options), aftercare(simplify, smooth)
-    series = areas.geometry if hasattr(areas, "geometry") and hasattr(areas, "index") else None
-    labels: Sequence[Any] | None = None
-    if series is not None:
-        labels, areas = list(series.index), series.to_numpy()
-        if geographic is None:
-            geographic = series.crs is not None and series.crs.is_geographic
-    array = as_array(areas)
-    log = Log(labels, strict=on_error == "raise")
-    with interrupts.deferred():
-        flat, along = array.ravel(), guides(along, array.size)
-        lines = collapse_all(
-            flat, find, along, bool(geographic), log, care,
-            connect=connect, fills=options.get("holes") == "ignored",
-        )  # fmt: skip
-    result: Any = lines.reshape(array.shape) if array.ndim else lines[0]
-    if series is not None:
-        result = type(series)(lines, index=series.index, crs=series.crs)
-    return result if on_error == "raise" else (result, log.problems)
 
 
 def check_connect(connect: Any, along: Any, ends: Any) -> None:
@@ -236,24 +233,6 @@ class Log:
     def sentence(self, index: int, part: int, text: str) -> str:
         """Text with the area it is about."""
         return f"areas[{self.label(index)}]{f' part {part}' if part else ''}: {text}"
-
-
-def as_array(areas: Any) -> "Areas":
-    """Geometries as an object array; one geometry has no axis."""
-    if isinstance(areas, np.ndarray) and areas.dtype == object:
-        return areas
-    if areas is None or isinstance(areas, BaseGeometry):
-        single: Areas = np.empty((), dtype=object)
-        single[()] = areas
-        return single
-    try:
-        sequence = list(areas)
-    except TypeError:
-        msg = f"areas is a {type(areas).__name__}, expected areas"
-        raise GeometryTypeError(msg) from None
-    array = np.empty(len(sequence), dtype=object)
-    array[:] = sequence
-    return array
 
 
 def guides(along: Any, count: int) -> "Areas | None":

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from midrib.checks import is_number, shown
 from midrib.curves.averaging import Mean, average, check_mean
 from midrib.curves.joining import Channel, EndRule, between_ends, check_ends, join_middles
+from midrib.curves.kinks import kink_mean
 from midrib.curves.limit import draw_limit
 from midrib.curves.radii import EndClearance, Radii, draw_radii
 from midrib.curves.stations import WHOLE, Skip, StationRule
@@ -81,6 +82,8 @@ class Construction:
         if self.holes == "auxiliary":
             layout = layout.bridged()
         radii, ends = between_ends(self.radii(layout), self.ends)
+        if isinstance(self.mean, str) and self.mean == "kinks":
+            return radii, kink_mean(layout, ends, radii)
         if self.centring == "symmetric":
             other = layout.swapped()
             from_other, _ = between_ends(self.radii(other), ends)

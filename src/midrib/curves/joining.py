@@ -25,7 +25,16 @@ from midrib.layout import EndPoints, Layout
 from midrib.strip import pair_of
 from midrib.types import Floats, Ints
 
-__all__ = ["Channel", "EndRule", "Path", "between_ends", "check_ends", "heights_of", "join_middles"]
+__all__ = [
+    "Channel",
+    "EndRule",
+    "Path",
+    "between_ends",
+    "check_ends",
+    "end_points",
+    "heights_of",
+    "join_middles",
+]
 
 Channel: TypeAlias = Literal["shorter", "wider"]
 EndRule: TypeAlias = Literal["main", "caps", "radii"] | tuple[object, object] | None

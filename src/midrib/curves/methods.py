@@ -87,6 +87,7 @@ def minimal_radii_finder(**options: Any) -> Finder:
     return find
 
 
+MEAN_CURVES = ("proportional", "kinks")
 # What makes other methods of the construction.
 OF_METHOD: dict[str, dict[str, Any]] = {
     "mean-curve": {"centring": "symmetric", "mean": "proportional"}
@@ -94,11 +95,18 @@ OF_METHOD: dict[str, dict[str, Any]] = {
 
 
 def mean_curve_finder(**options: Any) -> Finder:
-    """Rhino's mean curve: middles between points of the same share of either curve's length."""
-    for name in sorted({"centring", "mean", "tolerance"} & options.keys()):
+    """Rhino's mean curve: middles between points of the same share of either curve's length.
+
+    With ``mean="kinks"`` these are the two sides themselves, from pair to pair of their kinks.
+    """
+    for name in sorted({"centring", "tolerance"} & options.keys()):
         msg = f"method 'mean-curve' has no option {name!r}"
         raise ParameterError(msg)
-    return minimal_radii_finder(**OF_METHOD["mean-curve"], **options)
+    mean = options.get("mean", "proportional")
+    if not isinstance(mean, str) or mean not in MEAN_CURVES:
+        msg = f"mean is {shown(mean)}, expected 'proportional' or 'kinks' for method 'mean-curve'"
+        raise ParameterError(msg)
+    return minimal_radii_finder(**(OF_METHOD["mean-curve"] | options))
 
 
 METHODS = {

@@ -168,11 +168,12 @@ def minimal_radii(
         from the auxiliary curve. "centred": S is moved along its radius until both curves are
         equally far, and points are added in between within ``tolerance``: the trunk of the
         medial axis between the two ends.
-    mean : {"radii", "proportional", "same-height"} or (dx, dy), optional
+    mean : {"radii", "proportional", "kinks", "same-height"} or (dx, dy), optional
         Which points are averaged for "symmetric": those of radii that cut off as much of the two
         curves together ("radii", the default); in equal shares of the two lengths
-        ("proportional", Rhino's mean curve); at the same height along the strip, or along a
-        direction (dx, dy).
+        ("proportional"); of the two sides themselves, in equal shares between kinks of both that
+        are paired in order ("kinks", Rhino's mean curve); at the same height along the strip, or
+        along a direction (dx, dy).
     holes : {"blocked", "auxiliary", "ignored"}, default "blocked"
         What the area's holes, its islands, are. "blocked": in the way: no radius crosses one, and
         the curve goes round it. "auxiliary": parts of the auxiliary curve too: radii end on them,

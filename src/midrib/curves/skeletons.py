@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from midrib.layout import Layout, Scale
     from midrib.types import Floats, Ints
 
-__all__ = ["Skeleton", "skeleton", "trunk_finder"]
+__all__ = ["Skeleton", "graph_finder", "pruning", "skeleton", "trunk_finder"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,22 +123,56 @@ def skeleton(
     >>> found.trunk.wkt
     'LINESTRING (0 1, 1 1, 8 1, 9 1)'
     """
-    axis = axis_of(method)
+    find = graph_finder(method, **options)
+    prune = pruning(min_branch_length, min_significance)
+    check_flag(geographic, "geographic")
+    area = area_of_one(area, "area")
+    scale = degree_lengths(shapely.bounds(area)) if geographic else PLANE
+    graph, layout = find(area, scale)
+    graph = prune(graph, scale)
+    return Skeleton(area, method, graph.points, graph.radius, graph.edges, layout)
+
+
+def graph_finder(method: str, **options: Any) -> "Callable[[Polygon, Scale], tuple[Graph, Layout]]":
+    """Return what finds skeletons of valid areas, by a method and its options.
+
+    Raises
+    ------
+    ParameterError
+        If there is no such method, it has no branches, or an option has a value it cannot have.
+    """
+    of_rings = made(axis_of(method), method, options)
+
+    def find(area: Polygon, scale: "Scale") -> "tuple[Graph, Layout]":
+        coordinates, offsets = pack_areas(np.array([area], dtype=object)).rings(0)
+        layout = divide(*normalised(coordinates, offsets), scale)
+        return of_rings(coordinates, offsets, layout), layout
+
+    return find
+
+
+def pruning(
+    min_branch_length: float | None, min_significance: float | None
+) -> "Callable[[Graph, Scale], Graph]":
+    """Return what prunes skeletons, by the options of ``skeleton``.
+
+    Raises
+    ------
+    ParameterError
+        If an option has a value it cannot have.
+    """
     least = {"min_branch_length": min_branch_length, "min_significance": min_significance}
     for name, value in least.items():
         if value is not None and (not is_number(value) or not 0.0 <= value < np.inf):
             msg = f"{name} is {shown(value)}, expected a number of 0 or more"
             raise ParameterError(msg)
-    check_flag(geographic, "geographic")
-    find = made(axis, method, options)
-    area = area_of_one(area, "area")
-    scale = degree_lengths(shapely.bounds(area)) if geographic else PLANE
-    coordinates, offsets = pack_areas(np.array([area], dtype=object)).rings(0)
-    layout = divide(*normalised(coordinates, offsets), scale)
-    graph = find(coordinates, offsets, layout)
-    if min_branch_length or min_significance:
-        graph = pruned(graph, scale, min_branch_length or 0.0, min_significance or 0.0)
-    return Skeleton(area, method, graph.points, graph.radius, graph.edges, layout)
+
+    def prune(graph: Graph, scale: "Scale") -> Graph:
+        if not min_branch_length and not min_significance:
+            return graph
+        return pruned(graph, scale, min_branch_length or 0.0, min_significance or 0.0)
+
+    return prune
 
 
 def axis_of(method: str) -> "Callable[..., Axis]":

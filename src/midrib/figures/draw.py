@@ -13,7 +13,8 @@ import shapely
 from shapely import LineString, MultiPolygon, Polygon
 
 from midrib.checks import check_library
-from midrib.curves.collapse import as_array, check_connect
+from midrib.curves.collapse import check_connect
+from midrib.curves.taking import as_array
 from midrib.errors import ParameterError
 from midrib.figures.curves import Sketch, curves_of
 from midrib.figures.paper import Paper, sheet_for

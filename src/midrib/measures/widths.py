@@ -34,7 +34,7 @@ from midrib.measures.chains import (
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["largest_width", "length", "mean_width", "width"]
+__all__ = ["largest_width", "length", "mean_width", "mean_widths_of_pieces", "width"]
 
 MOST_INTERVALS = 10_000.0  # of a line: half widths of an area 5000 times as long as wide
 
@@ -201,6 +201,18 @@ def mean_and_largest_width(lines: Any, areas: Any, *, geographic: bool) -> tuple
     largest = np.full(flat_lines.size, np.nan)
     np.fmax.at(largest, owner, across)
     return shaped(np.where(is_there(flat_areas), mean, np.nan), like), shaped(largest, like)
+
+
+def mean_widths_of_pieces(lines: Geometries, areas: Geometries, *, geographic: bool) -> "Floats":
+    """``mean_width`` along each piece of many-pieced lines, one after the other."""
+    chains = places_along(lines, areas, geographic)
+    across = widths(chains, areas, geographic)
+    piece = np.concatenate([[0], np.cumsum(~chains.goes_on)])[:-1][chains.goes_on]
+    steps = np.hypot(*step_vectors(chains.points, geographic).T)[chains.goes_on]
+    middle = ((across[:-1] + across[1:]) / 2.0)[chains.goes_on]
+    with np.errstate(invalid="ignore"):
+        means: Floats = np.bincount(piece, steps * middle) / np.bincount(piece, steps)
+    return means
 
 
 def widths(chains: Chains, areas: Geometries, geographic: bool) -> "Floats":

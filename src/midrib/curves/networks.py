@@ -1,0 +1,226 @@
+"""Lines of a network from the skeleton of its area: crossings repaired, dead ends led to the edge.
+
+Every change is proven before it is kept: what it draws is covered by the area, and lines meet in
+equal points at their ends only. Where that fails all stays as the skeleton has it.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+from shapely import MultiPolygon, Polygon
+
+from midrib.curves.graphs import Graph
+from midrib.curves.junctions import Crossing, Net, Stretch, arms_of, crossings_of, hub_of, net_of
+from midrib.layout import Scale
+from midrib.types import Floats, Ints
+
+__all__ = ["network_lines"]
+
+STRAIGHT = 2.0**-36  # of the extent: a vertex this near to the line between its neighbours goes
+INWARDS = (0.0, 1.0, 4.0, 16.0, 64.0)  # roundings of a coordinate, to come inside
+NONE = np.empty(0, dtype=np.intp)
+TIP = 1  # ways of a point that is one
+SAMPLES = 65  # of half a dead end
+SIGNIFICANT = 2.0  # radii that something reaches that is no corner, a corner reaches 1.41
+BACK, BEYOND = 2.0, 3.0  # radii from which the direction of a dead end is taken, and it is led on
+
+
+class Ending(NamedTuple):
+    """How a branch ends instead: at a hub, or at the edge of the area."""
+
+    points: Floats  # (m, 2) from there inwards, in coordinate units
+    kept: int  # points of the branch, seen from its far end, that stay
+
+
+class Change(NamedTuple):
+    """A crossing or a dead end: how branches end there, and which ones go."""
+
+    endings: dict[tuple[int, int], Ending]  # by branch, and 0 or 1 for its first or last point
+    inner: Ints
+
+
+class Site(NamedTuple):
+    """The area, to be asked what it covers."""
+
+    area: Polygon | MultiPolygon  # prepared
+    walls: shapely.STRtree  # segments of its boundary
+    scale: Floats  # (2,)
+    extent: float
+
+    def covers(self, points: Floats) -> bool:
+        """Whether a chain is inside."""
+        return bool(self.area.covers(shapely.linestrings(points)))
+
+
+def network_lines(
+    graph: Graph,
+    area: Polygon | MultiPolygon,
+    scale: Scale,
+    overlap: float,
+    fixed: Ints = NONE,
+) -> list[Floats]:
+    """Lines between the nodes of a network.
+
+    Parameters
+    ----------
+    graph : Graph
+        A skeleton of the area, without the branches that lead into corners.
+    area : Polygon or MultiPolygon
+        A valid one.
+    scale : lengths of one unit of x and of y
+    overlap : junctions are one crossing up to so many times the sum of their radii
+    fixed : rows of points that are no dead ends, though one edge leads there
+
+    Returns
+    -------
+    list of (n, 2) arrays
+        Points of each line; lines that meet do so in equal points at their ends.
+    """
+    site, net = site_of(area, scale), net_of(graph, scale)
+    ends = net.ends()
+    changes = [crossing_change(net, c, ends, site) for c in crossings_of(net, overlap)]
+    is_tip = (net.degree[ends] == TIP) & ~np.isin(ends, fixed)
+    changes += [tip_change(net, int(b), int(end), site) for b, end in np.argwhere(is_tip)]
+    changes = [change for change in changes if change.endings]
+    while True:
+        gone = {int(b) for change in changes for b in change.inner}
+        there = [b for b in range(len(net.branches)) if b not in gone]
+        endings = {at: ending for change in changes for at, ending in change.endings.items()}
+        lines = [
+            drawn(graph.points, net.branches[b], endings.get((b, 0)), endings.get((b, 1)), site)
+            for b in there
+        ]
+        bad = {there[k] for k in wrong(lines, site.area)}
+        sound = [change for change in changes if not bad & {b for b, _ in change.endings}]
+        if len(sound) == len(changes):
+            return lines
+        changes = sound
+
+
+def site_of(area: Polygon | MultiPolygon, scale: Scale) -> Site:
+    """Site of an area."""
+    area = shapely.force_2d(area)  # a copy, since it will be prepared
+    shapely.prepare(area)
+    rings = shapely.get_rings(shapely.get_parts(area))
+    points, ring = shapely.get_coordinates(rings, return_index=True)
+    goes_on = np.flatnonzero(ring[:-1] == ring[1:])
+    segments = shapely.linestrings(np.stack([points[goes_on], points[goes_on + 1]], axis=1))
+    low_x, low_y, high_x, high_y = area.bounds
+    extent = float(np.hypot((high_x - low_x) * scale[0], (high_y - low_y) * scale[1]))
+    return Site(area, shapely.STRtree(segments), np.array(scale), extent)
+
+
+def crossing_change(net: Net, crossing: Crossing, ends: Ints, site: Site) -> Change:
+    """Lead the arms of a crossing straight to its hub, from where they are narrow.
+
+    An arm from which that is not inside leads there from where it leaves the discs, or else from
+    its junction; if not even that is inside, nothing changes.
+    """
+    arms = arms_of(net, crossing, ends)
+    hub = hub_of(net, crossing, arms)
+    endings = {}
+    for arm in arms:
+        rows = net.branches[arm.branch][:: 1 - 2 * arm.end]
+        junction = net.points[rows[0]]
+        for cut, kept in ((arm.cut, arm.kept), arm.spare, (junction, len(rows) - 1)):
+            points = np.stack([hub, cut][: 1 + (cut != hub).any()]) / site.scale
+            if len(points) == 1 or site.covers(points):
+                endings[arm.branch, arm.end] = Ending(points, kept)
+                break
+        else:
+            return Change({}, crossing.inner)
+    return Change(endings, crossing.inner)
+
+
+def tip_change(net: Net, branch: int, end: int, site: Site) -> Change:
+    """Lead a dead end straight on to the edge, from before it turns into a corner if it does so.
+
+    What the disc of the tip reaches over from there is less than a corner's share.
+    """
+    stretch, nothing = net.stretch(branch, end), np.empty(0, np.intp)
+    arc = np.linspace(0.0, stretch.length / 2.0, SAMPLES)
+    _, radius = stretch.at(arc)
+    is_little = arc + radius[0] <= SIGNIFICANT * radius
+    if not is_little.any():
+        return Change({}, nothing)
+    turn = int(np.flatnonzero(is_little)[-1])
+    for inside in (float(arc[turn]), 0.0):
+        (start,), _ = stretch.at(np.array([inside]))
+        edge = edge_beyond(stretch, inside, float(radius[turn]), site)
+        if edge is not None:
+            points = np.stack([edge, start / site.scale])
+            kept = int(np.count_nonzero(stretch.arc > inside))
+            return Change({(branch, end): Ending(points, kept)}, nothing)
+    return Change({}, nothing)
+
+
+def edge_beyond(stretch: Stretch, inside: float, radius: float, site: Site) -> Floats | None:
+    """Point of the edge straight on from a place on a dead end, None if there is none nearby."""
+    free = stretch.length - float(stretch.radius[-1])  # of the junction that it leads to
+    back = min(inside + BACK * radius, max(free, (3.0 * inside + stretch.length) / 4.0))
+    (start, before), _ = stretch.at(np.array([inside, back]))
+    step = start - before
+    length = np.hypot(*step)
+    if length == 0.0:
+        return None
+    reach = (inside + BEYOND * radius) * step / length
+    ray = shapely.linestrings(np.stack([start, start + reach]) / site.scale)
+    walls = site.walls.geometries[site.walls.query(ray, predicate="intersects")]
+    met = shapely.get_coordinates(shapely.intersection(walls, ray)) * site.scale
+    if len(met) == 0:
+        return None
+    edge = met[np.argmin(np.hypot(*(met - start).T))]
+    rounding = np.spacing(np.abs(np.stack([start, edge])).max())
+    for inwards in INWARDS:
+        there: Floats = (edge - inwards * rounding * step / length) / site.scale
+        if site.covers(np.stack([there, start / site.scale])):
+            return there
+    return None
+
+
+def drawn(
+    points: Floats, rows: Ints, first: Ending | None, last: Ending | None, site: Site
+) -> Floats:
+    """Points of a branch between its new ends; a vertex on the straight way to one is left out."""
+    low = 0 if first is None else len(rows) - first.kept
+    high = len(rows) if last is None else last.kept
+    line = [points[rows[low:high]]]
+    if first is not None:
+        line.insert(0, first.points)
+    if last is not None:
+        line.append(last.points[::-1])
+    chain = np.concatenate(line)
+    distinct = np.append(True, (chain[1:] != chain[:-1]).any(axis=1))
+    chain = chain[distinct]
+    for at in (1, -2):
+        if len(chain) > 2 and is_straight(chain, at, site):
+            chain = np.delete(chain, at, axis=0)
+    return chain
+
+
+def is_straight(chain: Floats, at: int, site: Site) -> bool:
+    """Whether a vertex next to an end is on the straight way from there, but for rounding."""
+    a, b, c = chain[[at - 1, at, at + 1]] * site.scale
+    ahead, off = c - a, b - a
+    length = np.hypot(*ahead)
+    is_between = 0.0 <= ahead @ off <= length**2
+    return bool(
+        is_between and abs(ahead[0] * off[1] - ahead[1] * off[0]) <= STRAIGHT * site.extent * length
+    )
+
+
+def wrong(lines: list[Floats], area: Polygon | MultiPolygon) -> Ints:
+    """Lines that are not inside, cross themselves, or meet others elsewhere than at common ends."""
+    shapes = np.array([shapely.linestrings(line) for line in lines])
+    bad = ~shapely.covers(area, shapes) | ~shapely.is_simple(shapes)
+    one, other = shapely.STRtree(shapes).query(shapes, predicate="intersects")
+    one, other = one[one < other], other[one < other]
+    met, pair = shapely.get_coordinates(
+        shapely.intersection(shapes[one], shapes[other]), return_index=True
+    )
+    tips = np.array([line[[0, -1]] for line in lines])
+    is_end = [(tips[k[pair]] == met[:, None]).all(axis=2).any(axis=1) for k in (one, other)]
+    astray = pair[~(is_end[0] & is_end[1])]
+    bad[one[astray]] = bad[other[astray]] = True
+    return np.flatnonzero(bad)

@@ -1,0 +1,254 @@
+"""Partial collapse: closed forms, and what holds of every area at every width."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from shapely import LineString, MultiPolygon, Point, Polygon, affinity, box
+
+import midrib
+from midrib import network, partial_collapse
+from midrib.errors import GeometryTypeError, ParameterError
+from tests.shapes import NAMED, VALID
+from tests.strategies import areas
+
+SQUARES = [box(0, 0, 4, 4), box(9, 0, 13, 4)]
+DUMBBELL = shapely.union_all([*SQUARES, box(4, 1, 9, 3)])
+
+
+def vertices(geometry: Any) -> set[tuple[float, float]]:
+    """Vertices of a geometry."""
+    return {(x, y) for x, y in shapely.get_coordinates(geometry).tolist()}
+
+
+def check(area: Polygon, width: float, **options: Any) -> midrib.Partial:
+    """Hold a partial collapse against its area."""
+    found = partial_collapse(area, width, **options)
+    kept, lines = found.areas, found.lines
+    assert kept.is_valid
+    assert not (kept.is_empty and lines.is_empty)
+    assert kept.is_empty or area.covers(kept)
+    assert lines.is_empty or area.covers(lines)
+    if not kept.is_empty and not lines.is_empty:
+        met = kept.intersection(lines)
+        assert shapely.length(met) == 0.0
+        tips = {p for line in lines.geoms for p in (line.coords[0], line.coords[-1])}
+        on_edge = vertices(met)
+        assert on_edge
+        assert on_edge <= tips & vertices(kept)  # a line ends in a vertex of the area, bit by bit
+    assert isinstance(found, midrib.Partial)
+    return found
+
+
+# -- closed forms ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("width", [2.1, 2.5, 3.0, 3.2])
+def test_a_dumbbell_is_two_squares_and_a_line(width: float) -> None:
+    found = check(DUMBBELL, width, min_length=1.0)
+    assert found.areas.equals(MultiPolygon(SQUARES))
+    assert found.lines.equals(shapely.from_wkt("MULTILINESTRING ((4 2, 9 2))"))
+
+
+def test_what_is_nowhere_narrow_stays_as_it_is() -> None:
+    found = partial_collapse(DUMBBELL, 1.9)
+    assert found.areas is DUMBBELL
+    assert found.lines.is_empty
+
+
+def test_what_is_nowhere_wide_is_a_network() -> None:
+    found = check(DUMBBELL, 9.0)
+    assert found.areas.wkt == "POLYGON EMPTY"
+    assert found.lines.equals(network(DUMBBELL, tolerance=0.009))
+
+
+@pytest.mark.parametrize("degrees", [3.0, 10.0, 20.0])
+def test_a_wedge_is_cut_between_the_feet_of_the_disc(degrees: float) -> None:
+    turn = np.radians(degrees)
+    length, width = 60.0, 4.0
+    side = length * np.array([np.cos(turn), np.sin(turn)])
+    area = Polygon([(0, 0), side * [1, -1], side])
+    found = check(area, width, min_length=1.0)
+    foot = width / 2.0 / np.tan(turn) * np.array([np.cos(turn), np.sin(turn)])
+    wanted = Polygon([foot * [1, -1], side * [1, -1], side, foot])
+    assert shapely.hausdorff_distance(found.areas, wanted) < 1e-6
+    (line,) = found.lines.geoms
+    assert shapely.hausdorff_distance(line, LineString([(0, 0), (foot[0], 0)])) < 1e-6
+
+
+def test_a_pond_in_a_road_is_kept() -> None:
+    area = shapely.union_all([box(-20, -1, 20, 1), Point(0, 0).buffer(4, quad_segs=64)])
+    found = check(area, 3.0)
+    mouth = (4.0**2 - 1.0) ** 0.5
+    assert found.areas.area == pytest.approx(Point(0, 0).buffer(4, quad_segs=64).area, rel=0.02)
+    ends = sorted(x for line in found.lines.geoms for x in shapely.get_coordinates(line)[:, 0])
+    assert [ends[0], ends[-1]] == pytest.approx([-20, 20], abs=1e-9)
+    assert [x for x in ends if abs(x) < 19] == pytest.approx([-mouth, mouth], abs=0.01)
+
+
+@pytest.mark.parametrize("width", [2.2, 2.4, 2.6, 2.9])
+def test_where_roads_meet_there_is_no_area(width: float) -> None:
+    """Discs at the junctions of roads are 1.25 and 1.41 times as wide as the roads."""
+    roads = [box(-20, -1, 20, 1), box(-9, 0, -7, 15), box(7, -15, 9, 15)]
+    found = check(shapely.union_all(roads), width, min_length=6.0)
+    assert found.areas.is_empty == (width > 2.3)
+
+
+def test_an_island_is_gone_round_by_what_is_narrow() -> None:
+    area = Polygon(box(0, 0, 30, 10).exterior, [box(10, 3, 20, 7).exterior])
+    found = check(area, 5.0)
+    assert len(found.areas.geoms) == 2
+    assert len(found.lines.geoms) == 2
+    wide = check(area, 2.5)
+    assert wide.areas is area
+    ringed = check(Polygon(box(0, 0, 40, 20).exterior, [box(15, 8, 25, 12).exterior]), 2.0).areas
+    assert len(ringed.interiors) == 1
+
+
+def test_short_parts_go_with_what_is_beside_them() -> None:
+    assert partial_collapse(DUMBBELL, 3.0, min_length=7.5).areas.equals(DUMBBELL)
+    river = shapely.union_all([box(-30, -1, 30, 1), box(-1, -1.2, 1, 1.2)])
+    assert check(river, 2.2, min_length=3.0).areas.is_empty
+    assert check(river, 2.2, min_length=0.5).areas.area == pytest.approx(4.8, rel=0.2)
+
+
+def test_a_door_in_a_wall_without_thickness_is_no_part() -> None:
+    wall = [(5, 0), (5, 2), (5.0, 0)]
+    shell = [(0, 0), wall[0], wall[1], (5 + 1e-9, 0), (10, 0), (10, 5), (5 + 1e-9, 5), (5, 3)]
+    area = Polygon([*shell, (5 - 1e-9, 5), (0, 5)])
+    found = check(area, 2.0, min_length=0.1)
+    assert found.areas.area == pytest.approx(area.area)
+
+
+# -- relations -------------------------------------------------------------------------------------
+
+shares = st.sampled_from([0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.5])
+
+
+def thickness(area: Polygon) -> float:
+    """Twice the largest radius."""
+    return 2.0 * float(midrib.skeleton(area).radius.max())
+
+
+@given(area=areas, share=shares)
+@settings(max_examples=80)
+def test_areas_and_lines_are_inside_and_meet_in_vertices(area: Polygon, share: float) -> None:
+    width = share * thickness(area)
+    check(area, width)
+    check(area, width, min_length=0.1 * width, min_significance=1.5)
+
+
+@given(area=areas, one=shares, other=shares)
+@settings(max_examples=80)
+def test_areas_lose_as_the_width_grows(area: Polygon, one: float, other: float) -> None:
+    size, most = min(one, other) * thickness(area), max(one, other) * thickness(area)
+    options: dict[str, Any] = {
+        "min_length": 0.3 * thickness(area),
+        "tolerance": 1e-4 * thickness(area),
+    }
+    wide = partial_collapse(area, size, **options).areas
+    narrow = partial_collapse(area, most, **options).areas
+    assert narrow.difference(wide).area <= 1e-6 * area.area
+
+
+@pytest.mark.parametrize("name", sorted(VALID))
+def test_awkward_areas_are_divided(name: str) -> None:
+    area = VALID[name]
+    for share in (0.2, 0.6, 0.9, 1.1):
+        check(area, share * thickness(area), min_length=0.1)
+
+
+@pytest.mark.parametrize("method", ["chordal-axis", "straight-skeleton", "point-voronoi"])
+def test_every_skeleton_will_do(method: str) -> None:
+    found = check(DUMBBELL, 2.2, method=method)
+    assert len(found.areas.geoms) == 2
+    assert shapely.hausdorff_distance(found.areas, MultiPolygon(SQUARES)) < 0.6
+
+
+def test_doubling_moves_nothing_else() -> None:
+    for power in (-30, 7, 50):
+        factor = 2.0**power
+
+        def larger(geometry: Any, factor: float = factor) -> Any:
+            return affinity.scale(geometry, factor, factor, origin=(0, 0))
+
+        found = partial_collapse(larger(NAMED["river_with_island"]), 2.0 * factor)
+        expected = partial_collapse(NAMED["river_with_island"], 2.0)
+        assert found.lines.equals_exact(larger(expected.lines), 1e-9 * factor)
+        assert found.areas.normalize().equals_exact(
+            larger(expected.areas).normalize(), 1e-9 * factor
+        )
+
+
+def test_far_from_the_origin_it_is_the_same() -> None:
+    def moved(geometry: Any) -> Any:
+        return affinity.translate(affinity.rotate(geometry, 33, origin=(0, 0)), 6e5, 5e6)
+
+    found = check(moved(DUMBBELL), 3.0)
+    assert shapely.hausdorff_distance(found.areas, moved(MultiPolygon(SQUARES))) < 1e-6
+
+
+def test_degrees_are_lengths_of_a_plane() -> None:
+    area = affinity.translate(affinity.scale(DUMBBELL, 2e-5, 1e-5, origin=(0, 0)), 18, 60)
+    found = check(area, 3.3, geographic=True)
+    assert len(found.areas.geoms) == 2
+
+
+def test_heights_are_carried_along() -> None:
+    area = shapely.transform(
+        shapely.force_3d(DUMBBELL),
+        lambda p: np.column_stack([p[:, :2], 2.0 * p[:, 0] + p[:, 1]]),
+        include_z=True,
+    )
+    found = partial_collapse(area, 3.0)
+    for part in found:
+        points = shapely.get_coordinates(part, include_z=True)
+        np.testing.assert_allclose(points[:, 2], 2.0 * points[:, 0] + points[:, 1], atol=1e-9)
+
+
+# -- arrays, and what is refused -------------------------------------------------------------------
+
+
+def test_arrays_are_like_each_alone() -> None:
+    shapes = np.array([DUMBBELL, None, Polygon(), MultiPolygon([box(20, 0, 21, 9), *SQUARES])])
+    found = partial_collapse(shapes, 3.0)
+    assert found.areas[0].equals_exact(partial_collapse(DUMBBELL, 3.0).areas, 0.0)
+    assert [found.areas[1], found.lines[1]] == [None, None]
+    assert [found.areas[2].wkt, found.lines[2].wkt] == ["POLYGON EMPTY", "MULTILINESTRING EMPTY"]
+    assert found.areas[3].equals(MultiPolygon(SQUARES))
+    assert found.lines[3].equals(shapely.from_wkt("MULTILINESTRING ((20.5 0, 20.5 9))"))
+
+
+def test_a_series_keeps_index_and_crs() -> None:
+    geopandas = pytest.importorskip("geopandas")
+    bow_tie = Polygon([(0, 0), (1, 1), (1, 0), (0, 1)])
+    series = geopandas.GeoSeries([DUMBBELL, bow_tie], index=["a", "b"], crs="EPSG:28992")
+    found, (problem,) = partial_collapse(series, 3.0, on_error="report")
+    assert (problem.index, problem.status) == ("b", "refused")
+    for part in found:
+        assert list(part.index) == ["a", "b"]
+        assert part.crs == series.crs
+        assert part["b"] is None
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"narrower_than": 0}, "narrower_than is 0, expected a number above 0"),
+        ({"narrower_than": "2m"}, "narrower_than is '2m', expected a number above 0"),
+        ({"narrower_than": 2, "min_length": -1}, "min_length is -1, expected a number above 0"),
+        ({"narrower_than": 2, "merge": -1}, "merge is -1"),
+        ({"narrower_than": 2, "method": "mean-curve"}, "method is 'mean-curve', expected"),
+    ],
+)
+def test_wrong_options_are_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        partial_collapse(box(0, 0, 9, 2), **options)
+
+
+def test_what_is_no_area_is_refused() -> None:
+    with pytest.raises(GeometryTypeError, match=r"areas\[0\]: is a Point"):
+        partial_collapse(Point(0, 0), 2.0)

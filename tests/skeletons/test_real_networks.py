@@ -1,0 +1,94 @@
+"""Networks of real roads, rivers and lakes."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from midrib import collapse, network, partial_collapse, skeleton
+from midrib.measures import mean_width
+from tests.skeletons.test_networks import cycles, meets_at_nodes_only, nodes_of
+from tests.skeletons.test_partial import check as check_partial
+
+geopandas = pytest.importorskip("geopandas")
+
+FOLDER = Path(__file__).parents[3] / "shared" / "data"
+ROADS = "rijbaan|fietspad|inrit"
+MOST_VERTICES = 3_000  # of one river or lake
+
+pytestmark = [
+    pytest.mark.shared,
+    pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent"),
+]
+
+
+def joined(shapes: Any, gap: float) -> Any:
+    """Pieces that areas cover together, where gaps as narrow as that are closed."""
+    grown = shapely.buffer(shapes[shapely.is_valid(shapes)], gap, join_style="mitre")
+    return shapely.get_parts(shapely.buffer(shapely.union_all(grown), -gap, join_style="mitre"))
+
+
+def roads(place: str) -> Any:
+    """Areas of roads in metres, as they touch."""
+    if place == "gooi":
+        frame = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="vlak")
+        return joined(frame[frame.function.str.match(ROADS, na=False)].geometry.to_numpy(), 0.02)
+    frame = geopandas.read_parquet(FOLDER / "osm2streets_road_polygons.parquet")
+    frame = frame[frame.place == place]
+    return joined(frame.to_crs(frame.estimate_utm_crs()).geometry.to_numpy(), 0.1)
+
+
+def check(areas: Any, *, geographic: bool = False) -> tuple[int, int, int]:
+    """Hold networks against their areas; count crossings, those of skeletons, dead ends inside."""
+    crossings, junctions, inside = 0, 0, 0
+    for area in areas:
+        found = network(area, geographic=geographic)
+        whole = skeleton(area, min_significance=3.0, geographic=geographic)
+        assert area.covers(found)
+        assert meets_at_nodes_only(found)
+        if area.boundary.is_simple:
+            assert cycles(list(found.geoms)) == len(whole.edges) - len(whole.points) + 1
+        ways = nodes_of(found)
+        crossings += sum(count > 2 for count in ways.values())
+        junctions += int((np.bincount(whole.edges.ravel()) > 2).sum())
+        tips = shapely.points(np.array([p for p, n in ways.items() if n == 1]).reshape(-1, 2))
+        inside += int((shapely.distance(tips, area.boundary) > 1e-6).sum())
+    return crossings, junctions, inside
+
+
+@pytest.mark.parametrize(
+    "place",
+    ["gooi", "montlake_roundabout", "tempe_split", "quad_intersection", "seattle_slip_lane"],
+)
+def test_roads_have_fewer_crossings_than_their_skeletons(place: str) -> None:
+    areas = roads(place)
+    crossings, junctions, inside = check(areas)
+    assert crossings <= 0.85 * junctions
+    assert inside <= 0.02 * crossings + 1  # dead ends reach the edge
+
+
+@pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
+def test_rivers_and_lakes_have_networks(name: str) -> None:
+    shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
+    few = shapely.get_num_coordinates(shapes) <= MOST_VERTICES
+    check(shapes[shapely.is_valid(shapes) & few][::6], geographic=True)
+
+
+@pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
+@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
+def test_rivers_and_lakes_are_divided_at_any_width(name: str, share: float) -> None:
+    shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
+    few = shapely.get_num_coordinates(shapes) <= MOST_VERTICES
+    both = 0
+    for area in shapes[shapely.is_valid(shapes) & few][::12]:
+        width = share * mean_width(collapse(area, geographic=True), area, geographic=True)
+        found = check_partial(area, width, geographic=True)
+        both += not (found.areas.is_empty or found.lines.is_empty)
+        if share < 2.0:  # parts that are long enough at both widths
+            less = partial_collapse(
+                area, 1.3 * width, min_length=width, tolerance=width / 1e3, geographic=True
+            )
+            assert less.areas.difference(found.areas).area <= 1e-6 * area.area
+    assert both >= (3 if share == 2.0 else 20)
