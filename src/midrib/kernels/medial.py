@@ -177,8 +177,8 @@ def medial_axis(
     ----------
     Blum, A transformation for extracting new descriptors of shape, 1967 (the axis); Lee, Medial
     axis transformation of a planar shape, IEEE PAMI 4, 1982 (its straight pieces and arcs);
-    Aichholzer, Aigner, Aurenhammer and Jüttler, Exact medial axis computation for circular arc
-    boundaries, 2011 (discs that leave no way round).
+    Aichholzer, Aigner, Aurenhammer, Hackl, Jüttler and Rabl, Medial axis computation for planar
+    free-form shapes, CAD 41, 2009 (discs that leave no way round).
     """
     w = walls_of(mesh, scale_x, scale_y)
     start = sharpest(w)
