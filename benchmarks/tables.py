@@ -20,6 +20,8 @@ PACKAGES = (
     "centerline",
     "pythoncdt",
     "mapbox_earcut",
+    "pyvoronoi",
+    "pysfcgal",
 )
 
 

@@ -12,13 +12,14 @@ import shapely
 from hypothesis import assume, note
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from shapely import LineString, Polygon, box
+from shapely import LineString, Polygon, affinity, box
 
 from midrib import Strip, split
 
 __all__ = [
     "areas",
     "combs",
+    "crowded",
     "divided",
     "polyominoes",
     "ribbons",
@@ -30,10 +31,11 @@ __all__ = [
 
 Floats = NDArray[np.float64]
 Pair = tuple[int, int]
+Exact = tuple[int, int] | tuple[Fraction, Fraction]
 UNTANGLINGS = 100
 
 
-def turn(a: Pair, b: Pair, c: Pair) -> int:
+def turn(a: Exact, b: Exact, c: Exact) -> int | Fraction:
     """Twice the signed area of a triangle."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
@@ -204,6 +206,44 @@ def is_between(a: Floats, b: Floats, c: Floats) -> bool:
     """Whether b is exactly on the segment a c, halfway but for rounding."""
     (ax, ay), (bx, by), (cx, cy) = ((Fraction(x), Fraction(y)) for x, y in (a, b, c))
     return (bx - ax) * (cy - ay) == (by - ay) * (cx - ax)
+
+
+@st.composite
+def crowded(draw: st.DrawFn) -> Polygon:
+    """Many equal holes in a lattice or on a circle, squared paper: discs that touch a lot at once.
+
+    Holes are moved by nothing, by rounding or by more; some touch.
+    """
+    n, corners = draw(st.integers(1, 4)), draw(st.sampled_from([3, 4, 6, 8]))
+    kind = draw(st.sampled_from(["lattice", "circle", "paper"]))
+    angle = 2.0 * np.pi * np.arange(corners) / corners + draw(st.sampled_from([0.0, np.pi / 4]))
+    hole = np.column_stack([np.cos(angle), np.sin(angle)])
+    if kind == "paper":
+        cells = draw(st.lists(st.tuples(st.integers(0, 5), st.integers(0, 5)), max_size=12))
+        area = shapely.difference(
+            box(0, 0, 6, 6), shapely.union_all([box(x, y, x + 1, y + 1) for x, y in cells])
+        )
+    else:
+        if kind == "lattice":
+            places = [(2 * i, 2 * j) for i in range(1, n + 1) for j in range(1, n + 1)]
+            shell = box(0, 0, 2 * n + 2, 2 * n + 2).exterior
+        else:
+            around = 2.0 * np.pi * np.arange(n + 2) / (n + 2)
+            places = list(zip(3 * np.cos(around), 3 * np.sin(around), strict=True))
+            shell = LineString([(0, 0), (0, 0)]).buffer(5.0, quad_segs=6).exterior
+        size = draw(st.sampled_from([0.5, 0.9, 1.0]))
+        gap = draw(st.sampled_from([0.0, 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3]))
+        moves = draw(st.lists(st.integers(-9, 9), min_size=2 * len(places), max_size=99))
+        area = Polygon(
+            shell,
+            [
+                hole * size + place + gap * np.array(moves[2 * k : 2 * k + 2])
+                for k, place in enumerate(places)
+            ],
+        )
+    area = affinity.rotate(area, draw(st.sampled_from([0.0, 30.0])), origin=(0, 0))
+    assume(isinstance(area, Polygon) and area.is_valid)
+    return area
 
 
 areas = st.one_of(simple_areas, with_holes())

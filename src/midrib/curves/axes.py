@@ -9,10 +9,11 @@ from shapely import Polygon
 
 from midrib.checks import is_number, shown
 from midrib.curves.graphs import Graph, radii_of
-from midrib.curves.straight_skeleton import straight_skeleton_of
+from midrib.curves.straight_skeleton import straight_skeleton_in
 from midrib.errors import InvariantError, ParameterError, TooManyStationsError
 from midrib.kernels.chordal import chordal_axis
 from midrib.kernels.medial import medial_axis
+from midrib.kernels.mesh import Mesh
 from midrib.kernels.voronoi import voronoi_inside
 from midrib.layout import Layout, boundary_of
 from midrib.ragged import normalised, offsets
@@ -60,7 +61,9 @@ def straight() -> Axis:
     """Straight skeleton: the bisectors of shrinking edges."""
 
     def find(coordinates: Floats, starts: Ints, layout: Layout) -> Graph:
-        found = straight_skeleton_of(coordinates[:, :2] * layout.scale, starts)
+        mesh = whole_mesh(coordinates, starts, layout)
+        x, y = layout.scale
+        found = straight_skeleton_in(mesh._replace(x=mesh.x * x, y=mesh.y * y))
         used, edges = np.unique(found.ridges, return_inverse=True)
         points = found.points[used] / layout.scale
         radius = radii_of(coordinates, starts, points, layout.scale)
@@ -77,7 +80,7 @@ def medial(*, tolerance: float | None = None) -> Axis:
 
     def find(coordinates: Floats, starts: Ints, layout: Layout) -> Graph:
         within = layout.mean_width * ARCS_WITHIN if tolerance is None else float(tolerance)
-        mesh = boundary_of(normalised(coordinates, starts)[0]).mesh  # the layout's has ends too
+        mesh = whole_mesh(coordinates, starts, layout)
         is_done, points, radius, edges = medial_axis(mesh, *layout.scale, within)
         if not is_done:
             msg = "the medial axis was not found, please report this area"
@@ -93,6 +96,12 @@ AXES: dict[str, Callable[..., Axis]] = {
     "point-voronoi": point_voronoi,
     "straight-skeleton": straight,
 }
+
+
+def whole_mesh(coordinates: Floats, starts: Ints, layout: Layout) -> Mesh:
+    """Return the mesh of an area: that of its layout, unless an end has put a vertex in there."""
+    rings = normalised(coordinates, starts)[0]
+    return layout.mesh if layout.mesh.x.size == rings.x.size else boundary_of(rings).mesh
 
 
 def densified(rings: Floats, starts: Ints, apart: float) -> tuple[Floats, Ints]:

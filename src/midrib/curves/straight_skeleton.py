@@ -12,7 +12,7 @@ from midrib.layout import boundary_of
 from midrib.ragged import normalised
 from midrib.types import Floats, Ints
 
-__all__ = ["StraightSkeleton", "straight_skeleton_of"]
+__all__ = ["StraightSkeleton", "straight_skeleton_in", "straight_skeleton_of"]
 
 
 class StraightSkeleton(NamedTuple):
@@ -57,7 +57,12 @@ def straight_skeleton_of(coordinates: Floats, starts: Ints) -> StraightSkeleton:
     to happen at once. Every skeleton is checked before it is returned: nodes lie on the planes of
     their faces to 1e-9 of the extent, and every face is one walk; see ``kernels.roof``.
     """
-    mesh, origin, unit = unit_mesh(boundary_of(normalised(coordinates, starts)[0]).mesh)
+    return straight_skeleton_in(boundary_of(normalised(coordinates, starts)[0]).mesh)
+
+
+def straight_skeleton_in(mesh: Mesh) -> StraightSkeleton:
+    """Find the straight skeleton of the area of a mesh; see ``straight_skeleton_of``."""
+    mesh, origin, unit = unit_mesh(mesh)
     roof = straight_skeleton(mesh)
     faces = faces_of(mesh, roof)
     if not faces.is_sound:

@@ -20,17 +20,33 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.clearance import nearest_on_segment
+from midrib.kernels.clearance import nearest_of, nearest_on_segment
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.walls import Walls
 
-__all__ = ["BETWEEN_CORNERS", "BETWEEN_WALLS", "PARABOLA", "Bisector", "bisector", "centre",
-           "contact", "leaves", "meets_point", "meets_wall"]  # fmt: skip
+__all__ = [
+    "BETWEEN_CORNERS",
+    "BETWEEN_WALLS",
+    "DEPTH",
+    "MET_NOTHING",
+    "PARABOLA",
+    "Bisector",
+    "bisector",
+    "centre",
+    "first_met",
+    "leaves",
+]
 
 BETWEEN_WALLS, BETWEEN_CORNERS, PARABOLA = 0, 1, 2
 ALMOST_FLAT = 1e-7  # normals that differ less say nothing about the direction of their bisector
 ROOT_STEPS = 100
+PROBES = 24  # for a disc that is off a wall which it touches before and after
+DEPTH = 2.0**-41  # of the extent: what reaches less far into a disc only touches it
+GAP = 2.0**-53  # of the extent: what rounding closes is taken to be as wide as this
+CLOSE = 2.0**-50  # of the extent: discs this near to a wall touch it
+TURNS = 64  # of the question what a disc meets
+MET_NOTHING = -1
 
 
 class Bisector(NamedTuple):
@@ -59,44 +75,29 @@ def centre(b: Bisector, t: float) -> tuple[float, float, float]:
 
 
 @njit(borrows=True)
-def contact(w: Walls, site: int, x: float, y: float, radius: float) -> tuple[float, float]:
-    """Vector from the centre of a disc to where it touches a site."""
-    n = w.x.size
-    if site < n:
-        return w.uy[site] * radius, -w.ux[site] * radius
-    return w.x[site - n] - x, w.y[site - n] - y
-
-
-@njit(borrows=True)
-def bisector(w: Walls, left: int, right: int, x: float, y: float, radius: float) -> Bisector:
+def bisector(w: Walls, left: int, right: int, x: float, y: float) -> Bisector:
     """Bisector of two sites, from the disc about (x, y) on."""
     n = w.x.size
     if left < n and right < n:
-        return between_walls(w, left, right, x, y, radius)
+        return between_walls(w, left, right, x, y)
     if left >= n and right >= n:
         p, q = left - n, right - n
         dx, dy = w.x[q] - w.x[p], w.y[q] - w.y[p]
-        apart = length(dx, dy)
+        apart = max(length(dx, dy), GAP * w.extent)
         ax, ay, dx, dy = (w.x[p] + w.x[q]) / 2.0, (w.y[p] + w.y[q]) / 2.0, -dy / apart, dx / apart
         t = (x - ax) * dx + (y - ay) * dy
         return Bisector(BETWEEN_CORNERS, ax, ay, dx, dy, apart / 2.0, 0.0, t)
     wall, point, g = (left, right - n, -1.0) if left < n else (right, left - n, 1.0)
     ux, uy = w.ux[wall], w.uy[wall]
     px, py = w.x[point] - w.x[wall], w.y[point] - w.y[wall]
-    foot, c = px * ux + py * uy, py * ux - px * uy
+    foot, c = px * ux + py * uy, max(py * ux - px * uy, GAP * w.extent)
     ax, ay, dx, dy = w.x[wall] + foot * ux, w.y[wall] + foot * uy, g * ux, g * uy
     return Bisector(PARABOLA, ax, ay, dx, dy, c, g, (x - ax) * dx + (y - ay) * dy)
 
 
 @njit(borrows=True)
-def between_walls(w: Walls, left: int, right: int, x: float, y: float, radius: float) -> Bisector:
-    """Bisector of two walls; into a convex corner it leads to that very point."""
-    if w.following[right] == left:
-        dx, dy = w.x[left] - x, w.y[left] - y
-        way = length(dx, dy)
-        if way == 0.0:
-            return Bisector(BETWEEN_WALLS, x, y, 0.0, 0.0, 0.0, 0.0, 0.0)
-        return Bisector(BETWEEN_WALLS, x, y, dx / way, dy / way, radius, -radius / way, 0.0)
+def between_walls(w: Walls, left: int, right: int, x: float, y: float) -> Bisector:
+    """Bisector of two walls."""
     nx, ny, mx, my = -w.uy[left], w.ux[left], -w.uy[right], w.ux[right]
     sx, sy, dx, dy = nx + mx, ny + my, my - ny, nx - mx  # both along the bisector
     if nx * mx + ny * my > 0.0:  # the sum is the longer of the two, the difference has the sign
@@ -116,20 +117,21 @@ def between_walls(w: Walls, left: int, right: int, x: float, y: float, radius: f
 
 
 @njit(borrows=True)
-def leaves(w: Walls, b: Bisector, site: int, is_left: bool, farthest: float) -> float:
-    """Return the t at which the contact runs off a site of the bisector."""
+def leaves(w: Walls, b: Bisector, site: int, is_left: bool, limit: tuple[float, float],
+           farthest: float) -> float:  # fmt: skip
+    """Return the t at which the contact runs off a site.
+
+    The limit of a wall is a point, that of a corner the normal that the centre is on then.
+    """
     n = w.x.size
     if site < n:
-        end = site if is_left else site + 1
-        t = (w.x[end] - b.ax) * b.dx + (w.y[end] - b.ay) * b.dy
+        t = (limit[0] - b.ax) * b.dx + (limit[1] - b.ay) * b.dy
         if b.kind == BETWEEN_WALLS:
             along = w.ux[site] * b.dx + w.uy[site] * b.dy
-            t = (w.x[end] - b.ax) * w.ux[site] + (w.y[end] - b.ay) * w.uy[site]
+            t = (limit[0] - b.ax) * w.ux[site] + (limit[1] - b.ay) * w.uy[site]
             t = farthest if along == 0.0 else t / along
         return max(t, b.t)
-    # The contact leaves a corner when the centre is on the normal of the wall beyond.
-    beyond = w.preceding[site - n] if is_left else site - n
-    nx, ny = -w.uy[beyond], w.ux[beyond]
+    nx, ny = limit
     if b.kind == BETWEEN_CORNERS:
         across = nx * b.dy - ny * b.dx  # a unit towards the right
         if not is_left:
@@ -152,26 +154,6 @@ def leaves(w: Walls, b: Bisector, site: int, is_left: bool, farthest: float) -> 
 
 
 @njit(borrows=True)
-def meets_point(b: Bisector, x: float, y: float, stop: float, depth: float) -> float:
-    """Return the t before stop at which a disc is deepest over a point, inf if none is so deep."""
-    px, py = x - b.ax, y - b.ay
-    along = px * b.dx + py * b.dy
-    if b.kind == BETWEEN_CORNERS:  # the discs of a pencil: what is in one is in the last one
-        return np.inf
-    if b.kind == BETWEEN_WALLS:
-        lead, t = 1.0 - b.g * b.g, along + b.c * b.g
-    else:
-        lead, t = 1.0 - (b.dx * py - b.dy * px) * b.g / b.c, along
-    if lead <= 0.0:
-        return np.inf
-    t /= lead
-    if not b.t < t < stop:
-        return np.inf
-    cx, cy, radius = centre(b, t)
-    return t if length(cx - x, cy - y) < radius - depth else np.inf
-
-
-@njit(borrows=True)
 def overlap(w: Walls, b: Bisector, wall: int, t: float) -> float:
     """How far a wall is outside the disc at t."""
     x, y, radius = centre(b, t)
@@ -180,16 +162,31 @@ def overlap(w: Walls, b: Bisector, wall: int, t: float) -> float:
 
 
 @njit(borrows=True)
+def off_wall(w: Walls, b: Bisector, wall: int, stop: float, close: float) -> float:
+    """Return a t before stop at which the disc is off a wall, or that of the first disc."""
+    share = 1.0
+    for _ in range(PROBES):
+        share /= 2.0
+        t = b.t + share * (stop - b.t)
+        if overlap(w, b, wall, t) > close:
+            return t
+    return b.t
+
+
+@njit(borrows=True)
 def meets_wall(w: Walls, b: Bisector, wall: int, stop: float, close: float) -> float:
     """Return the t at which the disc touches a wall that the disc at stop reaches over.
 
-    Regula falsi, with the value of an end halved that stays (Illinois), and bisection where that
-    is slow.
+    The first disc may touch the wall as well, and get off it before it comes back to it. Regula
+    falsi, with the value of an end halved that stays (Illinois), and bisection where that is slow.
     """
     low, high = b.t, stop
     at_low, at_high = overlap(w, b, wall, low), overlap(w, b, wall, high)
-    if at_low <= 0.0:
-        return low
+    if at_low <= close:
+        low = off_wall(w, b, wall, stop, close)
+        if low == b.t:
+            return low
+        at_low = overlap(w, b, wall, low)
     last = 0
     for step in range(ROOT_STEPS):
         t = (low * at_high - high * at_low) / (at_high - at_low)
@@ -209,3 +206,23 @@ def meets_wall(w: Walls, b: Bisector, wall: int, stop: float, close: float) -> f
             at_low = at_low / 2.0 if last == -1 else at_low
             last = -1
     return low
+
+
+@njit(borrows=True)
+def first_met(w: Walls, b: Bisector, hint: int, stop: float) -> tuple[float, int]:
+    """Return where the disc meets a third wall, and that wall; ``stop`` if it meets nothing.
+
+    How far it can roll is asked of the disc at the end of its way: what reaches over that is met
+    before, at the place where the disc touches it, and the question is asked again there.
+    """
+    met = MET_NOTHING
+    for _ in range(TURNS):
+        x, y, radius = centre(b, stop)
+        wall, _, squared = nearest_of(x, y, w.x, w.y, w.is_wall, w.boxes, hint, w.stack)
+        if np.sqrt(squared) >= radius - DEPTH * w.extent:
+            break
+        met, hint = wall, wall
+        stop = meets_wall(w, b, wall, stop, CLOSE * w.extent)
+        if stop <= b.t:
+            break
+    return stop, met

@@ -4,9 +4,9 @@ Walls follow each other around the inside, which is on their left. Where rings t
 may see one loop of walls where there are two rings, and several corners where there is one point.
 
                   following
-                  \  inside        corner of wall k: the point where it starts, if the
-    inside         \               inside has more than half a turn there: it may be what
-    ----------------.              a point of the inside is nearest to
+                  \  inside        corner of wall k: the point where it starts. If the inside
+    inside         \               has more than half a turn there, it is reflex: it may be
+    ----------------.              what a point of the inside is nearest to
       k
 """
 
@@ -21,9 +21,10 @@ from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.predicates import orient
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["NO_CORNER", "Walls", "sharpest", "walls_of"]
+__all__ = ["CONVEX", "NO_CORNER", "REFLEX", "Walls", "sharpest", "walls_of"]
 
 NO_CORNER = -1
+CONVEX, FLAT, REFLEX = 1, 0, -1
 
 
 class Walls(NamedTuple):
@@ -33,13 +34,15 @@ class Walls(NamedTuple):
     ux, uy      direction
     vertex      of the mesh, where each starts
     following, preceding
-    corner      the wall that starts from the reflex corner at the same point, or NO_CORNER
-    is_convex   whether the inside has less than half a turn where it starts
+    corner      the wall that starts from the same point where the inside has half a turn or more,
+                or NO_CORNER
+    bend        of the corner where it starts: CONVEX, FLAT or REFLEX
     loop        its loop
     first       the first wall of each loop
     is_wall     not a place after a loop
     boxes       tree of boxes over all of them
     stack       room for a search in the tree
+    extent      length of the diagonal of the box around all
     """
 
     x: Floats
@@ -50,12 +53,13 @@ class Walls(NamedTuple):
     following: Ints
     preceding: Ints
     corner: Ints
-    is_convex: Bools
+    bend: Ints
     loop: Ints
     first: Ints
     is_wall: Bools
     boxes: Floats
     stack: Ints
+    extent: float
 
 
 @njit()
@@ -91,7 +95,7 @@ def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
     x, y, ux, uy = np.empty(n), np.empty(n), np.zeros(n), np.zeros(n)
     vertex, following, preceding = np.empty(n, np.intp), np.empty(n, np.intp), np.empty(n, np.intp)
     corner, loop, first = np.full(n, NO_CORNER), np.empty(n, np.intp), np.empty(loops, np.intp)
-    is_wall, is_convex = np.ones(n, np.bool_), np.zeros(n, np.bool_)
+    is_wall, bend = np.ones(n, np.bool_), np.zeros(n, np.intp)
     origin = mesh.tri[side[0]]
     for ring in range(loops):
         first[ring], last = starts[ring] + ring, starts[ring + 1] + ring - 1
@@ -106,19 +110,21 @@ def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
             dx, dy = x[k + 1] - x[k], y[k + 1] - y[k]
             size = length(dx, dy)
             ux[k], uy[k] = dx / size, dy / size
-    reflex = np.full(mesh.x.size, NO_CORNER)
+    wide = np.full(mesh.x.size, NO_CORNER)
     for k in range(n):
         if is_wall[k]:
             a, b, c = vertex[preceding[k]], vertex[k], vertex[k + 1]
             turn = orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], mesh.x[c], mesh.y[c])
-            is_convex[k] = turn > 0.0
-            if turn < 0.0:  # of the corners at one point only one can have more than half a turn
-                reflex[b] = k
+            bend[k] = CONVEX if turn > 0.0 else (REFLEX if turn < 0.0 else FLAT)
+            if turn <= 0.0:  # of the corners at one point only one can have half a turn
+                wide[b] = k
     for k in range(n):
-        corner[k] = reflex[vertex[k]]
+        corner[k] = wide[vertex[k]]
+    boxes = box_tree(x, y)
+    extent = length(boxes[1, 2] - boxes[1, 0], boxes[1, 3] - boxes[1, 1])
     return Walls(
-        x, y, ux, uy, vertex, following, preceding, corner, is_convex, loop, first, is_wall,
-        box_tree(x, y), np.empty(DEPTH, np.intp),
+        x, y, ux, uy, vertex, following, preceding, corner, bend, loop, first, is_wall,
+        boxes, np.empty(DEPTH, np.intp), extent,
     )  # fmt: skip
 
 
@@ -127,7 +133,7 @@ def sharpest(walls: Walls) -> int:
     """Wall that starts from the convex corner of the sharpest angle; every area has three."""
     best, at = np.inf, -1
     for k in range(walls.x.size):
-        if walls.is_wall[k] and walls.is_convex[k]:
+        if walls.is_wall[k] and walls.bend[k] == CONVEX:
             p = walls.preceding[k]
             along = walls.ux[p] * walls.ux[k] + walls.uy[p] * walls.uy[k]
             if along < best:
