@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from shapely import LineString, Polygon, box
 
 from midrib import Strip, collapse, minimal_radii
-from midrib.curves.kinks import best_chain
+from midrib.curves.kinks import best_chain, kink_pairs, kinks_of
 from tests.shapes import NAMED, annulus_sector
 from tests.strategies import areas, divided
 
@@ -64,6 +64,19 @@ def test_a_kink_of_one_side_alone_is_not_paired() -> None:
     assert area.covers(line)
     assert line.is_simple
     assert abs(shapely.get_coordinates(line)[:, 1] - 2.0).max() <= 0.5 + 1e-9
+
+
+def test_kinks_that_turn_apart_are_not_paired() -> None:
+    """An hourglass: where one side turns to the left the other turns to the right."""
+    lower = [(0, 0), (9, 0), (10, 1.5), (11, 0), (20, 0)]
+    strip = Strip(LineString(lower), LineString([(x, 4 - y) for x, y in lower]))
+    at, beside = kink_pairs(strip.layout)
+    sides = [
+        {float(chain.arc[k]): turn for k, turn in zip(*kinks_of(strip.layout, chain), strict=True)}
+        for chain in (strip.layout.main, strip.layout.auxiliary)
+    ]
+    for one, other in zip(at[1:-1], beside[1:-1], strict=True):
+        assert sides[0][one] * sides[1][other] > 0.0
 
 
 def test_unlike_counts_are_paired_where_they_fit() -> None:

@@ -76,6 +76,13 @@ def test_bands_are_inside(area: Polygon, how: dict[str, Any]) -> None:
         check(area, **how)
 
 
+def test_a_name_does_not_cut_across_a_bend() -> None:
+    """A straight line would find more room outside."""
+    area = LineString([(0, 30), (0, 0), (30, 0), (30, 30)]).buffer(1.5, cap_style="flat")
+    found = check(area, length=20)
+    assert found.heights == pytest.approx(3.0, rel=0.1)
+
+
 def test_more_room_has_larger_names() -> None:
     small, large = box(0, 0, 30, 4), box(-3, -1, 33, 6)
     assert check(large).heights > check(small).heights

@@ -12,6 +12,7 @@ from shapely import LineString, MultiLineString, Point, Polygon, affinity, box
 
 import midrib
 from midrib import collapse, network, skeleton
+from midrib.curves.networks import wrong
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -116,6 +117,22 @@ def test_staggered_roads_are_one_crossing_only_within_the_width(
     arms = [road((-stagger / 2, 0), (-stagger / 2, -15)), road((stagger / 2, 0), (stagger / 2, 15))]
     found = network(shapely.union_all([road((-20, 0), (20, 0)), *arms]))
     assert ways_of(found) == junctions | {1: 4}
+
+
+def test_a_row_of_side_roads_is_no_single_crossing() -> None:
+    """Each is near the next one, but not all are near each other."""
+    places = [(2.3 * k, 9.0 if k % 2 else -9.0) for k in range(8)]
+    area = shapely.union_all([road((-9, 0), (26, 0)), *(road((x, 0), (x, y)) for x, y in places)])
+    crossings = sum(n for ways, n in ways_of(network(area)).items() if ways > 2)
+    assert 4 <= crossings <= 8
+
+
+def test_lines_are_wrong_that_meet_elsewhere_than_at_their_ends() -> None:
+    lines = [np.array(line, dtype=float) for line in ([(0, 0), (2, 0)], [(1, 0), (1, 1)])]
+    assert wrong(lines, box(0, -1, 2, 2)).tolist() == [0, 1]
+    joined = [np.array(line, dtype=float) for line in ([(0, 0), (1, 0)], [(1, 0), (1, 1)])]
+    assert wrong(joined, box(0, -1, 2, 2)).tolist() == []
+    assert wrong(joined, box(0, -1, 2, 0.5)).tolist() == [1]
 
 
 def test_a_grid_of_streets() -> None:

@@ -11,6 +11,8 @@ from shapely import LineString, MultiPolygon, Point, Polygon, affinity, box
 
 import midrib
 from midrib import network, partial_collapse
+from midrib.curves.graphs import Graph
+from midrib.curves.narrowing import Parts, parts_of
 from midrib.errors import GeometryTypeError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -113,6 +115,17 @@ def test_short_parts_go_with_what_is_beside_them() -> None:
     river = shapely.union_all([box(-30, -1, 30, 1), box(-1, -1.2, 1, 1.2)])
     assert check(river, 2.2, min_length=3.0).areas.is_empty
     assert check(river, 2.2, min_length=0.5).areas.area == pytest.approx(4.8, rel=0.2)
+
+
+def test_of_short_parts_the_narrow_ones_go_first() -> None:
+    """A way that is wide and narrow by turns, every half unit, is wide as a whole."""
+    x = np.arange(41) / 2.0
+    edges = np.column_stack([np.arange(40), np.arange(1, 41)])
+    middle = np.where(np.arange(40) % 2, 0.95, 1.05)
+    graph = Graph(np.column_stack([x, 0.0 * x]), edges, np.full(41, 1.0))
+    parts = Parts(graph, middle < 1.0, middle)
+    assert not parts_of(parts, 1.0, 3.0, (1.0, 1.0)).is_narrow.any()
+    assert parts_of(parts, 1.0, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
 
 
 def test_a_door_in_a_wall_without_thickness_is_no_part() -> None:
