@@ -1,5 +1,6 @@
 """Whole strokes of a slope by matching its top with its toe."""
 
+from collections.abc import Callable
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
@@ -8,8 +9,8 @@ from midrib.errors import ParameterError
 from midrib.hatching.middle import Middle, middle_of
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.ladder import Ladder, Spacing, Strokes, build_ladder, draw_strokes
-from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
+from midrib.kernels.ladder import Ladder, Spacing, Strokes, build_ladder, draw_strokes, turn_rungs
+from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, MOST_TURN, mend
 from midrib.kernels.spacing import place_strokes
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
@@ -18,6 +19,8 @@ __all__ = ["Drawn", "Ground", "Start", "draw_by_matching", "drawn_of"]
 
 Start: TypeAlias = Literal["left", "right", "first", "last"]
 TAU, THETA, GAP = 0, 4, 6  # columns of rungs
+ROUNDS = 5  # of mending and placing anew
+DIGITS = 3  # of what tells rounds apart: the first of those that tie, whatever rounding says
 MOST_STROKES = 1_000_000  # the ladder has eight rungs for each, and holds 2^24
 UNMATCHED = "no straight stroke from top to toe goes on along both edges here; one is left out"
 
@@ -29,6 +32,7 @@ class Drawn(NamedTuple):
     middle: Floats  # (n, 2) the point there
     on_top: Floats
     on_toe: Floats
+    feet: Floats  # (n, 2) stations of these on the edges of the middle line's slope
     kept: Bools
     reason: str  # why others are not
 
@@ -39,6 +43,7 @@ class Drawn(NamedTuple):
             self.middle[rows],
             self.on_top[rows],
             self.on_toe[rows],
+            self.feet[rows],
             self.kept[rows],
             self.reason,
         )
@@ -54,25 +59,37 @@ class Ground(NamedTuple):
 
 
 def draw_by_matching(
-    strip: Strip, rule: Rule, start: Start, offset: float, end_strokes: bool, stiffness: float
+    strip: Strip,
+    rule: Rule,
+    start: Start,
+    offset: float,
+    end_strokes: bool,
+    stiffness: float,
+    top_share: float,
 ) -> tuple[Drawn, Ground]:
     """Draw whole strokes: none crosses another, all lead from top to toe."""
     middle = middle_of(strip)
     spacing = spacing_of(rule)
     check_count(middle, spacing)
-    ladder = build_ladder(middle.mesh, middle.top, middle.toe, middle.line, spacing, stiffness)
+    ladder = build_ladder(
+        middle.mesh, middle.top, middle.toe, middle.line, spacing, stiffness, top_share
+    )
     from_right = start in ("right", "last")
     if start in ("first", "last") and middle.is_turned:
         from_right = not from_right
     ground = Ground(middle, ladder, spacing, from_right)
-    if middle.is_closed:
-        origin = strip.main.coords[0] if start in ("first", "last") else None
-        strokes, kept = draw_around(ground, origin, offset, len(rule.pattern), stiffness)
-    else:
-        strokes, kept = draw_along(ground, offset, stiffness)
+    origin = strip.main.coords[0] if start in ("first", "last") else None
+    period = len(rule.pattern)
+
+    def draw(ground: Ground) -> tuple[Strokes, Bools]:
+        if middle.is_closed:
+            return draw_around(ground, origin, offset, period, stiffness)
+        return draw_along(ground, offset, stiffness)
+
+    strokes, kept, ground = settled(ground, draw, rule)
     drawn = drawn_of(strokes, kept)
     if end_strokes and not middle.is_closed:
-        drawn = with_ends(drawn, middle)
+        drawn = with_ends(drawn, middle, rule)
     return reversed_(drawn) if from_right else drawn, ground
 
 
@@ -83,13 +100,48 @@ def spacing_of(rule: Rule) -> Spacing:
 
 def check_count(middle: Middle, spacing: Spacing) -> None:
     """Refuse gaps that are absurdly small for a slope."""
-    total = float(np.hypot(*np.diff(middle.line, axis=0).T).sum())
-    if total > MOST_STROKES * spacing.least:
+    if middle.length > MOST_STROKES * spacing.least:
         msg = (
             f"gaps of {spacing.least:.3g} make more than {MOST_STROKES} strokes on a slope that is "
-            f"{total:.3g} long; scale or min_spacing is too small"
+            f"{middle.length:.3g} long; scale or min_spacing is too small"
         )
         raise ParameterError(msg)
+
+
+def settled(
+    ground: Ground, draw: Callable[[Ground], tuple[Strokes, Bools]], rule: Rule
+) -> tuple[Strokes, Bools, Ground]:
+    """Draw strokes; where some had to be mended, place all anew in the mended directions.
+
+    Turned strokes are longer or shorter, so that the rule asks for other gaps beside them. Of a few
+    rounds the one with the fewest omissions, and then with the most even gaps, is taken.
+    """
+    best: tuple[tuple[int, float], Strokes, Bools, Ground] | None = None
+    for _ in range(ROUNDS):
+        strokes, kept = draw(ground)
+        found = (int(np.count_nonzero(~kept)), unevenness(strokes, kept, rule))
+        if best is None or found < best[0]:
+            best = (found, strokes, kept, ground)
+        turns = (strokes.pivot[:, 4] - strokes.pivot[:, 3])[kept]
+        if not turns.any():
+            break
+        rungs, station = ground.ladder.rungs, strokes.pivot[kept, 0]
+        length = rungs[-1, TAU] if ground.middle.is_closed else None
+        theta = rungs[:, THETA] + np.interp(rungs[:, TAU], station, turns, period=length)
+        ground = ground._replace(ladder=turn_rungs(ground.ladder, theta, ground.spacing))
+    assert best is not None
+    return best[1:]
+
+
+def unevenness(strokes: Strokes, kept: Bools, rule: Rule) -> float:
+    """How uneven gaps are, and turns beyond the most: logarithms and radians, the worst of each."""
+    station, gap = strokes.pivot[kept, 0], rule.gaps(strokes.chord[kept, 6])
+    if station.size < 2:
+        return 0.0
+    ratios = np.diff(station) / ((gap[1:] + gap[:-1]) / 2.0)
+    turns = abs(np.diff(strokes.pivot[kept, 4]))
+    worst = np.log(ratios.max() / ratios.min()) + max(turns.max() - MOST_TURN, 0.0)
+    return float(np.round(worst, DIGITS))
 
 
 def draw_along(ground: Ground, offset: float, stiffness: float) -> tuple[Strokes, Bools]:
@@ -205,6 +257,7 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
         strokes.pivot[:, 1:3],
         strokes.chord[:, 2:4],
         strokes.chord[:, 4:6],
+        strokes.chord[:, 0:2],
         kept,
         UNMATCHED,
     )
@@ -215,21 +268,25 @@ def reversed_(drawn: Drawn) -> Drawn:
     return drawn.of_rows(np.arange(len(drawn.station))[::-1])
 
 
-def with_ends(drawn: Drawn, middle: Middle) -> Drawn:
-    """Add a stroke on each end of the slope that is a straight cap."""
-    mesh, top, toe = middle.mesh, middle.top.vertex, middle.toe.vertex
-    total = float(np.hypot(*np.diff(middle.line, axis=0).T).sum())
-    for end, station in ((0, 0.0), (-1, total)):
-        a, b = top[end], toe[end]
+def with_ends(drawn: Drawn, middle: Middle, rule: Rule) -> Drawn:
+    """Add a stroke on each end of the slope that is a straight cap; what is too near gives way."""
+    mesh, top, toe = middle.mesh, middle.top, middle.toe
+    for end, station in ((0, 0.0), (-1, middle.length)):
+        a, b = top.vertex[end], toe.vertex[end]
         if a == b:
             continue
         on_top, on_toe = np.array([mesh.x[a], mesh.y[a]]), np.array([mesh.x[b], mesh.y[b]])
+        feet = np.array([top.arc[end], toe.arc[end]])
+        (gap,) = rule.gaps(np.array([np.hypot(*(on_toe - on_top))]))
+        is_near = (abs(drawn.feet - feet) < LEAST_FOOT * gap).any(axis=1)
+        drawn = drawn.of_rows(np.flatnonzero(~is_near))
         place = 0 if end == 0 else len(drawn.station)
         drawn = Drawn(
             np.insert(drawn.station, place, station),
             np.insert(drawn.middle, place, (on_top + on_toe) / 2.0, axis=0),
             np.insert(drawn.on_top, place, on_top, axis=0),
             np.insert(drawn.on_toe, place, on_toe, axis=0),
+            np.insert(drawn.feet, place, feet, axis=0),
             np.insert(drawn.kept, place, True),
             drawn.reason,
         )

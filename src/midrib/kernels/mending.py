@@ -24,11 +24,13 @@ from midrib.kernels.paths import walk
 from midrib.kernels.predicates import orient
 from midrib.types import Bools, Floats
 
-__all__ = ["LEAST_FOOT", "MOST_FOOT", "crosses", "mend"]
+__all__ = ["LEAST_FOOT", "MOST_FOOT", "MOST_TURN", "crosses", "mend"]
 
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
 FOOT_COST = 60.0  # squared radians per squared gap
+MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more cost
+TURN_COST = 60.0  # for each squared radian
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
 SKIP = 8  # strokes left out in a row
 FAN = 15  # directions on either side, first of
@@ -75,6 +77,8 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
     """Whether two strokes after another are as they should be."""
     if not (leads_down(strokes, i) and leads_down(strokes, i + 1)):
         return False
+    if abs(strokes.pivot[i + 1, 4] - strokes.pivot[i, 4]) > MOST_TURN:
+        return False
     gap = (strokes.pivot[i, 5] + strokes.pivot[i + 1, 5]) / 2.0
     for edge in range(2):
         low, high = strokes.chord[i, edge], strokes.chord[i + 1, edge]
@@ -88,12 +92,15 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
 def cost_of_step(
     strokes: Strokes, i: int, j: int, turn: float, ahead: float, beside: float, stiffness: float
 ) -> float:
-    """Cost of strokes i and j in turn: of bends that calm ones have not, of feet near or far."""
+    """Cost of strokes i and j: of bends that calm ones have not, of feet near or far, of turns."""
     gap = (strokes.pivot[i, 5] + strokes.pivot[j, 5]) / 2.0
     step = strokes.pivot[j, 0] - strokes.pivot[i, 0]
     reach = stiffness * (strokes.chord[i, 6] + strokes.chord[j, 6]) / 2.0
     cost = reach * reach / (step * gap) * turn * turn
     missing = j - i - 1
+    calm = strokes.pivot[j, 3] - strokes.pivot[i, 3]
+    over = max(abs(calm + turn) - MOST_TURN * (missing + 1), 0.0)
+    cost += TURN_COST * over * over
     for foot in (ahead / gap, beside / gap):
         off = max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0)
         cost += FOOT_COST * off * off
