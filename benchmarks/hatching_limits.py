@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from shapely import LineString
 
 from hatch_slopes import Slope, one_random, real_polish, shapes
-from midrib import hatch
+from midrib import Strip, hatch
 from midrib.hatching import Hatching
 from midrib.hatching.measures import measure, turn_allowed
 from midrib.kernels.chords import ON_TOE, ON_TOP
@@ -30,6 +30,7 @@ from tables import markdown
 
 Floats = NDArray[np.float64]
 SLOPES = ("spur_bottom", "deep 1238", "deep 1178", "deep 1058", "sharp 1312", "PL 7", "PL 31")
+BAYS = ((10.0, 12.0), (20.0, 20.0), (20.0, 12.0), (35.0, 12.0))  # depths and mouths
 DIRECTIONS = np.radians(np.arange(-60.0, 60.1, 4.0))
 SPARSE, DENSE, TURN, LEAST, MOST = 1.25, 0.8, 20.0, 0.25, 1.75
 STRETCHES = np.linspace(0.9, 1.1, 9)
@@ -68,7 +69,9 @@ def chords_of(hatching: Hatching) -> Chords:
 
 
 @nb.njit()
-def is_possible(chords: Chords, stretch: float, factor: float, end: float) -> bool:
+def is_possible(  # noqa: C901
+    chords: Chords, stretch: float, factor: float, end: float
+) -> bool:
     """Whether a sequence from end to end keeps all bounds times a factor."""
     n, m = chords.theta.shape
     reached = np.zeros((n, m), np.bool_)
@@ -148,7 +151,16 @@ def slopes() -> list[tuple[Slope, float | None]]:
         else:
             kind, seed = name.split()
             found.append((one_random(kind, int(seed)), 0.1))
+    for depth, mouth in BAYS:
+        found.append((Slope(f"bay {depth:g} deep, {mouth:g} wide", bay(depth, mouth)), None))
     return found
+
+
+def bay(depth: float, mouth: float) -> Strip:
+    """Straight slope, 10 wide, with a bay in its toe that narrows to half its mouth."""
+    x = [0.0, *(100.0 + mouth * np.array([-0.5, -0.25, 0.25, 0.5])), 200.0]
+    y = [0.0, 0.0, -depth, -depth, 0.0, 0.0]
+    return Strip(LineString([(0.0, 10.0), (200.0, 10.0)]), LineString(np.column_stack([x, y])))
 
 
 def main() -> int:
@@ -156,8 +168,6 @@ def main() -> int:
     rows = []
     for slope, least in slopes():
         hatching = hatch(slope.strip, min_spacing=least)
-        plain = hatching.ground
-        assert plain is not None
         rows.append(
             [slope.name, f"{factor_of(hatching):.2f}", f"{least_factor(chords_of(hatching)):.2f}"]
         )

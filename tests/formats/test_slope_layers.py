@@ -139,7 +139,9 @@ def test_parts_have_a_crest_each(hint: str, tmp_path: Path) -> None:
 def test_a_second_crest_on_one_part_is_told(tmp_path: Path) -> None:
     path = tmp_path / "a.gpkg"
     save(path, "areas", [LOW], id=["low"])
-    save(path, "crest", [LineString([(0, 0), (9, 0)]), LineString([(9, 2), (0, 2)])], id=["low"] * 2)
+    save(
+        path, "crest", [LineString([(0, 0), (9, 0)]), LineString([(9, 2), (0, 2)])], id=["low"] * 2
+    )
     slopes, problems = read_slopes(path, layer="areas", top="crest:id")
     assert [slope.id for slope in slopes] == ["low/1"]
     assert [problem.id for problem in problems] == ["low/2"]

@@ -163,7 +163,10 @@ def test_one_place_for_start_and_end_needs_a_hole_for_the_toe() -> None:
 def test_other_holes_of_a_closed_slope_are_islands() -> None:
     island, large = box(8, 8, 8.5, 8.5).exterior, box(2, 2, 6, 6).exterior
     area = Polygon(box(0, 0, 9, 9).exterior, [island, large])
-    for corner, top, toe in (((2.0, 2.0), large, area.exterior), ((0.0, 0.0), area.exterior, large)):
+    for corner, top, toe in (
+        ((2.0, 2.0), large, area.exterior),
+        ((0.0, 0.0), area.exterior, large),
+    ):
         edges = edges_between(area, np.array(corner), np.array(corner))
         assert shapely.equals(Polygon(edges.top), Polygon(top))
         assert shapely.equals(Polygon(edges.toe), Polygon(toe))

@@ -167,9 +167,7 @@ def lines_of(path: Path, layer: str) -> list[LineString]:
     return [line for row in all_geometries(path, layer)[:, None] for line in joined_lines(row)]
 
 
-def lines_by_key(
-    path: Path, layer: str, field: str, option: str
-) -> dict[object, list[LineString]]:
+def lines_by_key(path: Path, layer: str, field: str, option: str) -> dict[object, list[LineString]]:
     """Read the lines of each key; pieces with the same key are joined where they meet."""
     pieces: dict[object, list[object]] = defaultdict(list)
     with open_layer(path, layer) as source:

@@ -55,9 +55,7 @@ def bare_stretches(
     step = float(np.median(gap)) / STEPS_PER_GAP
     lines = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
     found = []
-    for name, edge, other, at in zip(
-        ("top", "toe"), edges, edges[::-1], feet.T, strict=True
-    ):
+    for name, edge, other, at in zip(("top", "toe"), edges, edges[::-1], feet.T, strict=True):
         for low, high in far_from_feet(edge, at, gap):
             count = int(np.ceil((high - low) / max(step, edge.length / MOST_STEPS)))
             places = low + (high - low) * (np.arange(count) + 0.5) / count

@@ -8,7 +8,8 @@ import numpy as np
 from midrib.checks import check_flag, is_number, shown
 from midrib.errors import ParameterError
 from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
-from midrib.hatching.matching import Drawn, Ground, Start, draw_by_matching
+from midrib.hatching.laying import Ground
+from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
 from midrib.hatching.rule import LEAST_LENGTH, MILLIMETRES, Rule, rule_of
 from midrib.strip import Strip, check_strip

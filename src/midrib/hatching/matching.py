@@ -1,26 +1,24 @@
 """Whole strokes of a slope by matching its top with its toe."""
 
-from collections.abc import Callable
 from typing import Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
 from midrib.errors import ParameterError
+from midrib.hatching.improving import improved
+from midrib.hatching.laying import Ground, draw_at
 from midrib.hatching.middle import Middle, middle_of
 from midrib.hatching.rule import Rule
-from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.ladder import Ladder, Spacing, Strokes, build_ladder, draw_strokes, turn_rungs
-from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, MOST_TURN, mend
+from midrib.kernels.chords import ON_TOP
+from midrib.kernels.ladder import GAP, TAU, Spacing, Strokes, build_ladder, draw_strokes
+from midrib.kernels.mending import LEAST_FOOT
 from midrib.kernels.spacing import place_strokes
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Drawn", "Ground", "Start", "draw_by_matching", "drawn_of"]
+__all__ = ["Drawn", "Start", "draw_by_matching", "drawn_of"]
 
 Start: TypeAlias = Literal["left", "right", "first", "last"]
-TAU, THETA, GAP = 0, 4, 6  # columns of rungs
-ROUNDS = 5  # of mending and placing anew
-DIGITS = 3  # of what tells rounds apart: the first of those that tie, whatever rounding says
 MOST_STROKES = 1_000_000  # the ladder has eight rungs for each, and holds 2^24
 UNMATCHED = "no straight stroke from top to toe goes on along both edges here; one is left out"
 
@@ -49,15 +47,6 @@ class Drawn(NamedTuple):
         )
 
 
-class Ground(NamedTuple):
-    """A slope prepared for strokes, the rule for gaps, and where the pattern starts."""
-
-    middle: Middle
-    ladder: Ladder
-    spacing: Spacing
-    from_right: bool
-
-
 def draw_by_matching(
     strip: Strip,
     rule: Rule,
@@ -78,15 +67,14 @@ def draw_by_matching(
     if start in ("first", "last") and middle.is_turned:
         from_right = not from_right
     ground = Ground(middle, ladder, spacing, from_right)
-    origin = strip.main.coords[0] if start in ("first", "last") else None
-    period = len(rule.pattern)
-
-    def draw(ground: Ground) -> tuple[Strokes, Bools]:
-        if middle.is_closed:
-            return draw_around(ground, origin, offset, period, stiffness)
-        return draw_along(ground, offset, stiffness)
-
-    strokes, kept, ground = settled(ground, draw, rule)
+    if middle.is_closed:
+        origin = strip.main.coords[0] if start in ("first", "last") else None
+        stations = stations_around(ground, origin, offset, len(rule.pattern))
+    else:
+        tau, gap = ladder.rungs[:, TAU].copy(), ladder.rungs[:, GAP].copy()
+        stations, _ = place_strokes(tau, gap, offset, 1)
+    found = draw_at(ground, stations, stiffness)
+    strokes, kept, ground = improved(found, rule, offset, stiffness)
     drawn = drawn_of(strokes, kept)
     if end_strokes and not middle.is_closed:
         drawn = with_ends(drawn, middle, rule)
@@ -108,58 +96,16 @@ def check_count(middle: Middle, spacing: Spacing) -> None:
         raise ParameterError(msg)
 
 
-def settled(
-    ground: Ground, draw: Callable[[Ground], tuple[Strokes, Bools]], rule: Rule
-) -> tuple[Strokes, Bools, Ground]:
-    """Draw strokes; where some had to be mended, place all anew in the mended directions.
+def stations_around(
+    ground: Ground, origin: tuple[float, ...] | None, offset: float, period: int
+) -> Floats:
+    """Stations on a closed slope: a whole count of patterns, from a vertex of the top on.
 
-    Turned strokes are longer or shorter, so that the rule asks for other gaps beside them. Of a few
-    rounds the one with the fewest omissions, and then with the most even gaps, is taken.
+    Seen from the right, the stroke at the start is the last one.
     """
-    best: tuple[tuple[int, float], Strokes, Bools, Ground] | None = None
-    for _ in range(ROUNDS):
-        strokes, kept = draw(ground)
-        found = (int(np.count_nonzero(~kept)), unevenness(strokes, kept, rule))
-        if best is None or found < best[0]:
-            best = (found, strokes, kept, ground)
-        turns = (strokes.pivot[:, 4] - strokes.pivot[:, 3])[kept]
-        if not turns.any():
-            break
-        rungs, station = ground.ladder.rungs, strokes.pivot[kept, 0]
-        length = rungs[-1, TAU] if ground.middle.is_closed else None
-        theta = rungs[:, THETA] + np.interp(rungs[:, TAU], station, turns, period=length)
-        ground = ground._replace(ladder=turn_rungs(ground.ladder, theta, ground.spacing))
-    assert best is not None
-    return best[1:]
-
-
-def unevenness(strokes: Strokes, kept: Bools, rule: Rule) -> float:
-    """How uneven gaps are, and turns beyond the most: logarithms and radians, the worst of each."""
-    station, gap = strokes.pivot[kept, 0], rule.gaps(strokes.chord[kept, 6])
-    if station.size < 2:
-        return 0.0
-    ratios = np.diff(station) / ((gap[1:] + gap[:-1]) / 2.0)
-    turns = abs(np.diff(strokes.pivot[kept, 4]))
-    worst = np.log(ratios.max() / ratios.min()) + max(turns.max() - MOST_TURN, 0.0)
-    return float(np.round(worst, DIGITS))
-
-
-def draw_along(ground: Ground, offset: float, stiffness: float) -> tuple[Strokes, Bools]:
-    """Strokes of an open slope: a whole count of gaps between those that are ``offset`` away."""
-    middle, ladder, spacing, _ = ground
-    tau, gap = ladder.rungs[:, TAU].copy(), ladder.rungs[:, GAP].copy()
-    stations, _ = place_strokes(tau, gap, offset, 1)
-    strokes = draw_strokes(ladder, stations, spacing)
-    return strokes, mend(ladder, strokes, middle.periods, stiffness)
-
-
-def draw_around(
-    ground: Ground, origin: tuple[float, ...] | None, offset: float, period: int, stiffness: float
-) -> tuple[Strokes, Bools]:
-    """Strokes of a closed slope: a whole count of patterns, from a vertex of the top on."""
-    middle, ladder, spacing, from_right = ground
+    ladder, from_right = ground.ladder, ground.from_right
     tau, gap = ladder.rungs[:, TAU], ladder.rungs[:, GAP]
-    length, turn = tau[-1], ladder.rungs[-1, THETA] - ladder.rungs[0, THETA]
+    length = tau[-1]
     start = station_of_vertex(ground, origin)
     away = offset * float(np.interp(start, tau, gap))
     start = (start - away if from_right else start + away) % length
@@ -170,20 +116,7 @@ def draw_around(
     gaps = np.concatenate([[ends], gap[after:-1], gap[:after], [ends]])
     around, kept = np.unique(around, return_index=True)
     stations, _ = place_strokes(around, gaps[kept], 0.0, period)
-    stations %= length
-    first = int(np.argmin(stations))
-    strokes = draw_strokes(ladder, np.roll(stations, -first), spacing)
-    # Mending goes from a calm stroke round to itself.
-    seam = calmest(strokes, middle.periods)
-    strokes = with_first_again(rolled(strokes, seam, length, turn), length, turn)
-    stays = mend(ladder, strokes, middle.periods, stiffness)[:-1]
-    strokes = Strokes(
-        strokes.pivot[:-1], strokes.triangle[:-1], strokes.chord[:-1], strokes.on[:-1]
-    )
-    if not goes_round_once(strokes.chord[stays, :2], middle.periods[:2]):
-        stays[:] = False
-    back = (-first - seam + (1 if from_right else 0)) % len(stations)
-    return rolled(strokes, back, length, turn), np.roll(stays, -back)
+    return np.roll(stations, -1) if from_right else stations
 
 
 def station_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float:
@@ -204,50 +137,6 @@ def station_of_vertex(ground: Ground, origin: tuple[float, ...] | None) -> float
     step = (rungs.chord[after, 0] - rungs.chord[before, 0]) % period
     share = min(ahead[before] / step, 1.0) if step > 0.0 else 0.0
     return float(tau[before] + share * (tau[before + 1] - tau[before]))
-
-
-def calmest(strokes: Strokes, periods: Floats) -> int:
-    """Row in the middle of the longest run of strokes that advance on both edges as they should."""
-    ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods[:2]
-    shares = ahead / strokes.pivot[:, 5:]
-    is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
-    is_calm &= (shares > LEAST_FOOT).all(axis=1) & (shares < MOST_FOOT).all(axis=1)
-    n = is_calm.size
-    trouble = np.flatnonzero(~is_calm).tolist()
-    if not trouble:
-        return 0
-    if len(trouble) == n:
-        leads = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
-        return int(np.argmax(leads))
-    runs = np.diff([*trouble, trouble[0] + n]).tolist()
-    longest = int(np.argmax(runs))
-    middle: int = (trouble[longest] + (runs[longest] + 1) // 2) % n
-    return middle
-
-
-def rolled(strokes: Strokes, first: int, length: float, turn: float) -> Strokes:
-    """Return the strokes of a closed slope from another one on."""
-    pivot, chord = np.roll(strokes.pivot, -first, axis=0), np.roll(strokes.chord, -first, axis=0)
-    triangle, on = np.roll(strokes.triangle, -first), np.roll(strokes.on, -first, axis=0)
-    if first:
-        pivot[-first:, 0] += length
-        pivot[-first:, 3:5] += turn
-    pivot[:, 0] -= length * np.floor(pivot[0, 0] / length)
-    return Strokes(pivot, triangle, chord, on)
-
-
-def goes_round_once(feet: Floats, periods: Floats) -> bool:
-    """Whether feet that go on along two closed edges, back to the first one, go round each once."""
-    ahead = (np.roll(feet, -1, axis=0) - feet) % periods
-    return len(feet) < 2 or bool((np.round(ahead.sum(axis=0) / periods) == 1.0).all())
-
-
-def with_first_again(strokes: Strokes, length: float, turn: float) -> Strokes:
-    """Return the strokes of a closed slope and the first one again, a turn later."""
-    pivot, triangle, chord, on = (np.concatenate([part, part[:1]]) for part in strokes)
-    pivot[-1, 0] += length
-    pivot[-1, 3:5] += turn
-    return Strokes(pivot, triangle, chord, on)
 
 
 def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:

@@ -29,7 +29,7 @@ __all__ = ["LEAST_FOOT", "MOST_FOOT", "MOST_TURN", "crosses", "mend"]
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
 FOOT_COST = 60.0  # squared radians per squared gap
-MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more cost
+MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more, and more than calm ones, cost
 TURN_COST = 60.0  # for each squared radian
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
 SKIP = 8  # strokes left out in a row
@@ -77,8 +77,6 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
     """Whether two strokes after another are as they should be."""
     if not (leads_down(strokes, i) and leads_down(strokes, i + 1)):
         return False
-    if abs(strokes.pivot[i + 1, 4] - strokes.pivot[i, 4]) > MOST_TURN:
-        return False
     gap = (strokes.pivot[i, 5] + strokes.pivot[i + 1, 5]) / 2.0
     for edge in range(2):
         low, high = strokes.chord[i, edge], strokes.chord[i + 1, edge]
@@ -99,7 +97,8 @@ def cost_of_step(
     cost = reach * reach / (step * gap) * turn * turn
     missing = j - i - 1
     calm = strokes.pivot[j, 3] - strokes.pivot[i, 3]
-    over = max(abs(calm + turn) - MOST_TURN * (missing + 1), 0.0)
+    most = max(MOST_TURN * (missing + 1), abs(calm))
+    over = max(abs(calm + turn) - most, 0.0)
     cost += TURN_COST * over * over
     for foot in (ahead / gap, beside / gap):
         off = max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0)
