@@ -12,6 +12,7 @@ The least e for which there is one is printed beside that of our hatching. Chord
 are tried are up to a 16th of a gap and 2 degrees off, so that a true optimum may be a little lower.
 """
 
+import argparse
 import sys
 from typing import NamedTuple
 
@@ -26,10 +27,15 @@ from midrib.hatching import Hatching
 from midrib.hatching.measures import measure, turn_allowed
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.ladder import draw_strokes, turn_rungs
-from tables import markdown
+from tables import ROOT, markdown
 
 Floats = NDArray[np.float64]
-SLOPES = ("spur_bottom", "deep 1238", "deep 1178", "deep 1058", "sharp 1312", "PL 7", "PL 31")
+PAGE = ROOT / "docs" / "hatching.md"
+BEGIN, END = "<!-- limits -->", "<!-- end of limits -->"
+SLOPES = (
+    "spur_bottom", "deep 1238", "deep 1588", "deep 1658", "deep 1178", "sharp 1312", "PL 31",
+    "PL 67",
+)  # fmt: skip
 BAYS = ((10.0, 12.0), (20.0, 20.0), (20.0, 12.0), (35.0, 12.0))  # depths and mouths
 DIRECTIONS = np.radians(np.arange(-60.0, 60.1, 4.0))
 SPARSE, DENSE, TURN, LEAST, MOST = 1.25, 0.8, 20.0, 0.25, 1.75
@@ -164,15 +170,22 @@ def bay(depth: float, mouth: float) -> Strip:
 
 
 def main() -> int:
-    """Print a table."""
+    """Print a table and write it to the page."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--dry", action="store_true", help="print only")
+    options = parser.parse_args()
     rows = []
     for slope, least in slopes():
         hatching = hatch(slope.strip, min_spacing=least)
         rows.append(
             [slope.name, f"{factor_of(hatching):.2f}", f"{least_factor(chords_of(hatching)):.2f}"]
         )
-        print(*rows[-1], flush=True)
-    print(markdown(("slope", "ours", "none can be below"), rows))
+    table = markdown(("slope", "ours", "none can be below"), rows)
+    print(table)
+    if not options.dry:
+        before, _, rest = PAGE.read_text(encoding="utf-8").partition(BEGIN)
+        after = rest.partition(END)[2]
+        PAGE.write_text(f"{before}{BEGIN}\n{table}{END}{after}", encoding="utf-8")
     return 0
 
 

@@ -21,7 +21,7 @@ def scrambled(turns: list[float]) -> tuple[Strokes, Bools]:
     strokes = draw_strokes(ladder, np.arange(5.0, 100.0, 5.0), rule)
     strokes.pivot[4 : 4 + len(turns), 3:5] += np.array(turns)[:, None]
     strokes.on[4 : 4 + len(turns)] = 0  # trouble
-    return strokes, mend(ladder, strokes, middle.periods, 0.9)
+    return strokes, mend(ladder, strokes, middle.periods, 0.9, False)
 
 
 @pytest.mark.parametrize("turns", [[1.0], [0.9, -0.9], [-1.0, 1.0, -1.0], [1.2, 1.2, -1.2, -1.2]])

@@ -43,7 +43,7 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     tau, period = ladder.rungs[:, TAU], middle.periods[2] or None
     theta = ladder.rungs[:, THETA] + np.interp(tau, stations, turns, period=period)
     turned = ground._replace(ladder=turn_rungs(ladder, theta, ground.spacing))
-    other = draw_at(turned, stations, stiffness)
+    other = draw_at(turned, stations, stiffness, is_final=True)
     return other if other.badness(rule) < found.badness(rule) else found
 
 

@@ -89,12 +89,15 @@ def turns_of(strokes: Strokes, ground: Ground) -> Floats:
     return turns if ground.middle.is_closed else turns[:-1]
 
 
-def draw_at(ground: Ground, stations: Floats, stiffness: float) -> Found:
-    """Draw strokes at stations in order along the middle line, and mend them."""
+def draw_at(ground: Ground, stations: Floats, stiffness: float, *, is_final: bool = False) -> Found:
+    """Draw strokes at stations in order along the middle line, and mend them.
+
+    If their directions are final, those that will not do are only left out.
+    """
     middle, ladder, spacing, _ = ground
     if not middle.is_closed:
         strokes = draw_strokes(ladder, stations, spacing)
-        return Found(strokes, mend(ladder, strokes, middle.periods, stiffness), ground)
+        return Found(strokes, mend(ladder, strokes, middle.periods, stiffness, is_final), ground)
     length, turn = ladder.rungs[-1, TAU], ladder.rungs[-1, THETA] - ladder.rungs[0, THETA]
     stations = stations % length
     first = int(np.argmin(stations))
@@ -102,7 +105,7 @@ def draw_at(ground: Ground, stations: Floats, stiffness: float) -> Found:
     # Mending goes from a calm stroke round to itself.
     seam = calmest(strokes, middle.periods)
     strokes = with_first_again(rolled(strokes, seam, length, turn), length, turn)
-    stays = mend(ladder, strokes, middle.periods, stiffness)[:-1]
+    stays = mend(ladder, strokes, middle.periods, stiffness, is_final)[:-1]
     strokes = Strokes(
         strokes.pivot[:-1], strokes.triangle[:-1], strokes.chord[:-1], strokes.on[:-1]
     )

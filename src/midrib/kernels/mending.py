@@ -221,7 +221,9 @@ def is_inside(mesh: Mesh, strokes: Strokes, i: int) -> bool:
 
 
 @njit(entry=True)
-def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) -> Bools:
+def mend(
+    ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float, is_final: bool
+) -> Bools:
     """Mend strokes in place.
 
     Parameters
@@ -231,6 +233,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one; on a
         closed one the last stroke is the first one again, a turn later, and both stay as they are
     stiffness : as for the ladder
+    is_final : whether directions stay, so that strokes that will not do are only left out
 
     Returns
     -------
@@ -240,7 +243,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     n = strokes.triangle.size
     kept, is_ring = np.ones(n, np.bool_), periods[0] > 0.0
     # 1. Runs of trouble.
-    i = 0
+    i = n if is_final else 0
     while i < n:
         is_good = leads_down(strokes, i) and (i == n - 1 or is_calm(strokes, i, periods))
         if is_good:

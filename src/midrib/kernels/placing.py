@@ -17,7 +17,7 @@ import numpy as np
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
 from midrib.kernels.jit import njit
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, X, Y, gap_at
-from midrib.kernels.mending import FOOT_COST, LEAST_FOOT, MOST_FOOT, MOST_TURN, TURN_COST
+from midrib.kernels.mending import FOOT_COST, LEAST_FOOT, MOST_FOOT, MOST_TURN
 from midrib.types import Floats
 
 __all__ = ["choose_places"]
@@ -25,6 +25,7 @@ __all__ = ["choose_places"]
 FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
 NARROW, NARROWER, LEVELS = 4, 0.25, 3  # directions on either side, step over the one before
 GAP_COST, UNEVEN_COST = 5.0, 200.0  # for each l squared, and for what is beyond UNEVEN
+TURN_COST = 200.0  # for each squared radian of a turn that is too large
 UNEVEN, FARTHEST = 0.1, 0.7  # of l
 AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
 TURN_ROOM = 0.9  # of the most turn: what the rungs' width may still add to one
