@@ -191,6 +191,7 @@ def test_dxf_strokes_have_the_heights_of_the_edges(tmp_path: Path) -> None:
     document = readfile(written(tmp_path, "dxf", content))
     strokes = document.modelspace().query('LINE[layer=="PL-2015-SLOPE-UNREINFORCED_STROKES"]')
     assert len(strokes) == len(one.symbols.lines)
+    assert one.is_long is not None
     for stroke, is_long in zip(strokes, one.is_long, strict=True):
         start, end = np.array(stroke.dxf.start), np.array(stroke.dxf.end)
         assert start[2] == pytest.approx(172.0 + (start[0] - EAST) / 40.0)

@@ -35,7 +35,7 @@ class Found(NamedTuple):
     def trouble(self, rule: Rule) -> Bools:
         """Which strokes had to be mended, or are not a gap from a neighbour, or turn too far."""
         strokes, ground = self.strokes, self.ground
-        found = ~self.kept | (strokes.pivot[:, 4] != strokes.pivot[:, 3])
+        found: Bools = ~self.kept | (strokes.pivot[:, 4] != strokes.pivot[:, 3])
         ratios = ratios_of(strokes, ground, rule)
         is_off = abs(np.log(ratios / np.median(ratios))) > UNEVEN
         is_off |= turns_of(strokes, ground) > MOST_TURN
@@ -49,7 +49,8 @@ class Found(NamedTuple):
         That is the logarithm of the largest gap over the smallest, both over what the rule asks
         for, and of feet that are too far or too near, and the turn beyond the most, in radians.
         """
-        some = Strokes(*(part[self.kept] for part in self.strokes))
+        pivot, triangle, chord, on = self.strokes
+        some = Strokes(pivot[self.kept], triangle[self.kept], chord[self.kept], on[self.kept])
         ratios = ratios_of(some, self.ground, rule)
         worst = 0.0
         if ratios.size:
