@@ -343,7 +343,8 @@ def area_between(main: LineString, auxiliary: LineString, area: Polygon | None) 
     Raises
     ------
     InvalidAreaError
-        If neither is around the other, or they are not the two rings of the area that is given.
+        If neither is around the other, or they are not the outer ring and a hole of the area that
+        is given; its other holes are islands.
     """
     inner, outer = sorted((main, auxiliary), key=lambda curve: Polygon(curve).area)
     between = Polygon(outer.coords, [inner.coords])
@@ -355,17 +356,18 @@ def area_between(main: LineString, auxiliary: LineString, area: Polygon | None) 
         return between
     area = area_of_one(area, "area")
     near = ON_BOUNDARY * diagonal(area)
-    rings = LineString(area.exterior), *(LineString(ring) for ring in area.interiors)
-    for curve, ring in zip((outer, inner), rings, strict=False):
+    holes = [LineString(ring) for ring in area.interiors]
+    if not holes:
+        msg = "area has no hole, expected one between two closed curves"
+        raise InvalidAreaError(msg)
+    hole = min(holes, key=lambda hole: float(shapely.hausdorff_distance(hole, inner)))
+    for curve, ring in ((outer, LineString(area.exterior)), (inner, hole)):
         place = far_from(curve, ring, near)
         place = far_from(ring, curve, near) if place is None else place
         if place is not None:
             name = "main" if curve is main else "auxiliary"
             msg = f"{name} and the boundary of area part at {place_text(place)}"
             raise InvalidAreaError(msg)
-    if len(rings) != 2:
-        msg = f"area has {len(rings) - 1} holes, expected 1 between two closed curves"
-        raise InvalidAreaError(msg)
     return area
 
 

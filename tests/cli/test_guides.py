@@ -8,7 +8,8 @@ import pytest
 import shapely
 from shapely import LineString
 
-from midrib.formats.guides import PlacedGuides, line_of_text
+from midrib.formats.guides import PlacedGuides, lines_of_text
+from midrib.formats.reading import Batch
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, read_all
@@ -40,37 +41,39 @@ def directions(path: Path) -> list[bool]:
 
 def test_a_line_between_two_areas_is_along_both() -> None:
     guides = PlacedGuides(np.array([LOW, HIGH, None], dtype=object), [SHARED])
-    assert guides.guides.tolist() == [SHARED, SHARED, None]
+    assert guides.lines == [[SHARED], [SHARED], []]
 
 
 def test_a_line_beside_an_area_is_matched_to_the_nearest() -> None:
     beside = LineString([(0, -1), (90, -1)])
     guides = PlacedGuides(np.array([LOW, HIGH], dtype=object), [beside])
-    assert guides.guides.tolist() == [beside, None]
+    assert guides.lines == [[beside], []]
 
 
 def test_a_line_far_from_all_areas_is_left_out() -> None:
     far = LineString([(0, -500), (90, -500)])
-    assert PlacedGuides(np.array([LOW, HIGH], dtype=object), [far]).guides.tolist() == [None, None]
-    assert PlacedGuides(np.array([None], dtype=object), [far]).guides.tolist() == [None]
+    assert PlacedGuides(np.array([LOW, HIGH], dtype=object), [far]).lines == [[], []]
+    assert PlacedGuides(np.array([None], dtype=object), [far]).lines == [[]]
 
 
-def test_of_several_lines_the_longest_is_taken() -> None:
+def test_of_several_lines_the_longest_comes_first() -> None:
     short = LineString([(0, 0), (9, 0)])
-    guides = PlacedGuides(np.array([LOW], dtype=object), [BELOW, short])
-    assert guides.guides.tolist() == [BELOW]
+    guides = PlacedGuides(np.array([LOW], dtype=object), [short, BELOW])
+    assert guides.lines == [[BELOW, short]]
+    batch = Batch(0, np.array([LOW], dtype=object), pa.table({"id": [1]}), {})
+    assert guides.of(batch)[0].tolist() == [BELOW]
 
 
 @pytest.mark.parametrize(
     "text", [SHARED.wkt, SHARED.wkb_hex, shapely.multilinestrings([SHARED]).wkt]
 )
 def test_wkt_and_wkb_are_read(text: str) -> None:
-    assert line_of_text(text) == SHARED
+    assert lines_of_text(text) == [SHARED]
 
 
 @pytest.mark.parametrize("text", ["", "abc", "0102", "POINT (1 1)", "LINESTRING EMPTY"])
 def test_what_is_no_line_gives_none(text: str) -> None:
-    assert line_of_text(text) is None
+    assert lines_of_text(text) == []
 
 
 def test_a_field_gives_the_direction(midrib: Runner, tmp_path: Path) -> None:

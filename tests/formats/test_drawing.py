@@ -20,6 +20,7 @@ from midrib import standard
 from midrib.errors import ParameterError
 from midrib.formats.crs import system_of
 from midrib.formats.drawing.content import LINES, PROBLEMS, Drawing, Trouble, layers_of
+from midrib.formats.drawing.heights import relief_of
 from midrib.formats.drawing.qgis import style_of
 from midrib.formats.drawing.sheet import AROUND, MARGIN, pages_of
 from midrib.formats.drawing.write import check_places, write_drawing
@@ -168,6 +169,40 @@ def test_dxf_has_what_is_drawn_in_map_coordinates(document: Document) -> None:
     )
     assert outline.closed
     assert len(outline) == 4
+
+
+def test_dxf_tells_how_far_it_reaches(document: Document) -> None:
+    low, high = (np.array(document.header[name])[:2] for name in ("$EXTMIN", "$EXTMAX"))
+    bounds = drawing(POLAND).bounds
+    assert (low <= bounds[0] + 1e-9).all()
+    assert (high >= bounds[1] - 1e-9).all()
+    assert (high - low <= 20.0 * (bounds[1] - bounds[0])).all()  # notes are long
+
+
+def test_dxf_strokes_have_the_heights_of_the_edges(tmp_path: Path) -> None:
+    """From 172 to 173 along the top, 170 to 171 along the toe; a short stroke ends halfway."""
+    content = only(drawing(POLAND), "s1")
+    (one,) = content.objects
+    top, toe = (
+        LineString([(EAST + x, NORTH + y, z + x / 40.0) for x in (0.0, 40.0)])
+        for y, z in ((6.0, 172.0), (0.0, 170.0))
+    )
+    content.objects = [replace(one, relief=relief_of(top, toe))]
+    document = readfile(written(tmp_path, "dxf", content))
+    strokes = document.modelspace().query('LINE[layer=="PL-2015-SLOPE-UNREINFORCED_STROKES"]')
+    assert len(strokes) == len(one.symbols.lines)
+    assert one.is_long is not None
+    for stroke, is_long in zip(strokes, one.is_long, strict=True):
+        start, end = np.array(stroke.dxf.start), np.array(stroke.dxf.end)
+        assert start[2] == pytest.approx(172.0 + (start[0] - EAST) / 40.0)
+        assert start[2] - end[2] == pytest.approx(2.0 if is_long else 1.0)
+    assert document.header["$EXTMAX"][2] == pytest.approx(172.5)
+
+
+def test_unknown_heights_leave_a_drawing_flat() -> None:
+    top, toe = LineString([(0, 2, 172.0), (9, 2, 0.0)]), LineString([(0, 0, 170.0), (9, 0, 170.0)])
+    assert relief_of(top, toe) is None
+    assert relief_of(shapely.force_2d(top), toe) is None
 
 
 def test_dxf_layers_have_weights_colours_and_dashes(document: Document) -> None:

@@ -123,6 +123,31 @@ def test_parts_have_a_top_each(tmp_path: Path) -> None:
     assert [slope.top for slope in slopes] == [*TOPS.values()]
 
 
+@pytest.mark.parametrize("hint", ["crest", "crest:id", "edge"])
+def test_parts_have_a_crest_each(hint: str, tmp_path: Path) -> None:
+    path, pieces = tmp_path / "a.gpkg", [*TOPS.values()]
+    both = shapely.multilinestrings(pieces)
+    save(path, "areas", [MultiPolygon([LOW, HIGH])], id=["both"], edge=[both.wkt])
+    save(path, "crest", pieces[::-1], id=["both", "both"])
+    slopes, problems = read_slopes(path, layer="areas", top=hint)
+    assert not problems
+    assert [slope.id for slope in slopes] == ["both/1", "both/2"]
+    assert [slope.top for slope in slopes] == pieces  # the longest first
+    assert [slope.area for slope in slopes] == [LOW, HIGH]
+
+
+def test_a_second_crest_on_one_part_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "a.gpkg"
+    save(path, "areas", [LOW], id=["low"])
+    save(
+        path, "crest", [LineString([(0, 0), (9, 0)]), LineString([(9, 2), (0, 2)])], id=["low"] * 2
+    )
+    slopes, problems = read_slopes(path, layer="areas", top="crest:id")
+    assert [slope.id for slope in slopes] == ["low/1"]
+    assert [problem.id for problem in problems] == ["low/2"]
+    assert "two tops are on the same part" in problems[0].reason
+
+
 def test_areas_without_a_top_or_a_geometry_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "a.gpkg"
     edges = [TOPS["low"].wkt, None, "nonsense", TOPS["low"].wkt]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import shapely
-from shapely import LineString, Polygon, box
+from shapely import LineString, Point, Polygon, box
 
 from midrib import Strip, hatch, split
 from midrib.errors import InvalidAreaError
@@ -105,6 +105,17 @@ def test_an_island_is_left_out() -> None:
     hatching = hatch(strip)
     assert shapely.covers(area, hatching.strokes).all()
     assert len(hatching.problems) == 19 - len(hatching.strokes) >= 1
+    assert all("island" in problem.reason for problem in hatching.problems)
+
+
+def test_an_island_of_a_mound_is_left_out() -> None:
+    plain = annulus(10.0, 20.0)
+    island = Point(15.0, 0.0).buffer(1.0)
+    area = Polygon(plain.area.exterior, [*plain.area.interiors, island.exterior])
+    hatching = hatch(Strip(plain.main, plain.auxiliary, area))
+    assert shapely.covers(area, hatching.strokes).all()
+    missing = len(hatch(plain).strokes) - len(hatching.strokes)
+    assert len(hatching.problems) == missing >= 1
     assert all("island" in problem.reason for problem in hatching.problems)
 
 

@@ -30,7 +30,16 @@ def test_stretches_are_as_long_as_strokes_are_missing() -> None:
     found = hatch(strip)
     x = found.on_top[:, 0]
     kept = (x < 30.0) | (x > 70.0)
-    stretches = bare_stretches(strip, found.rule, found.on_top[kept], found.on_toe[kept], 0.1)
+    assert found.ground is not None
+    edges = found.ground.middle.edges
+    ends = found.on_top[kept], found.on_toe[kept]
+    feet = np.column_stack(
+        [
+            shapely.line_locate_point(LineString(edge.points), shapely.points(points))
+            for edge, points in zip(edges, ends, strict=True)
+        ]
+    )
+    stretches = bare_stretches(edges, found.rule, *ends, feet, 0.1)
     assert [stretch.edge for stretch in stretches] == ["top", "toe"]
     gap = found.rule.gaps(np.array([10.0]))[0]
     for stretch in stretches:

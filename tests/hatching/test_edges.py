@@ -151,12 +151,25 @@ def test_a_part_of_a_hole_stands_for_all_of_it_and_is_doubted() -> None:
         assert [doubt.kind for doubt in edges.doubts] == ["orientation"]
 
 
-def test_one_place_for_start_and_end_needs_one_hole() -> None:
-    with pytest.raises(SlopeError, match="of an area with 0 holes, expected one hole"):
+def test_one_place_for_start_and_end_needs_a_hole_for_the_toe() -> None:
+    with pytest.raises(SlopeError, match="of an area with no hole, expected one hole"):
         edges_between(AREA, at(AREA, 0), at(AREA, 0))
-    two = Polygon(MOUND.exterior, [*MOUND.interiors, box(7, 7, 8, 8).exterior])
-    with pytest.raises(SlopeError, match="of an area with 2 holes"):
-        edges_between(two, np.array([6.0, 3.0]), np.array([6.0, 3.0]))
+    area = box(0, 0, 9, 9)
+    twins = Polygon(area.exterior, [box(x, 2, x + 2, 4).exterior for x in (1, 5)])
+    with pytest.raises(SlopeError, match="with 2 holes, none larger than the others together"):
+        edges_between(twins, np.zeros(2), np.zeros(2))
+
+
+def test_other_holes_of_a_closed_slope_are_islands() -> None:
+    island, large = box(8, 8, 8.5, 8.5).exterior, box(2, 2, 6, 6).exterior
+    area = Polygon(box(0, 0, 9, 9).exterior, [island, large])
+    for corner, top, toe in (
+        ((2.0, 2.0), large, area.exterior),
+        ((0.0, 0.0), area.exterior, large),
+    ):
+        edges = edges_between(area, np.array(corner), np.array(corner))
+        assert shapely.equals(Polygon(edges.top), Polygon(top))
+        assert shapely.equals(Polygon(edges.toe), Polygon(toe))
 
 
 def test_start_and_end_on_two_rings_are_refused() -> None:

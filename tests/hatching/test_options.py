@@ -11,7 +11,7 @@ from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.hatching import add_stroke, delete_stroke, move_stroke
 from midrib.strip import Strip
-from tests.hatching.slopes import annulus, bend, rectangle, ring, trapezium
+from tests.hatching.slopes import annulus, bend, lens, rectangle, ring, trapezium
 
 
 def letters(**options: Any) -> str:
@@ -44,6 +44,41 @@ def test_offset_and_ends() -> None:
     assert hatch(rectangle(), offset=0.5).on_top[[0, -1], 0] == pytest.approx([2.5, 97.5])
     assert hatch(rectangle(), end_strokes=True).on_top[[0, -1], 0] == pytest.approx([0.0, 100.0])
     assert letters(end_strokes=True) == ("LS" * 11)[:21]
+
+
+@pytest.mark.parametrize("offset", [0.01, 0.2, 0.29])
+def test_strokes_give_way_to_those_on_the_ends(offset: float) -> None:
+    plain = hatch(rectangle(), end_strokes=True, offset=1.0)
+    hatching = hatch(rectangle(), end_strokes=True, offset=offset)
+    assert hatching.on_top[[0, -1], 0] == pytest.approx([0.0, 100.0])
+    assert np.diff(hatching.on_top[:, 0]).min() > 0.9 * np.diff(plain.on_top[:, 0]).min()
+    assert not hatching.problems
+
+
+def test_nothing_that_is_drawn_is_shorter_than_the_shortest_stroke() -> None:
+    for least in (0.1, 0.18, 0.5):
+        drawn = shapely.length(hatch(lens(), min_length=least, scale=500).strokes)
+        assert drawn.min() >= 0.5 * least * (1.0 - 1e-9)
+
+
+def test_necks_are_told() -> None:
+    x = np.linspace(0.0, 60.0, 61)
+    half = 3.0 * abs(np.cos(np.pi * x / 60.0)) + 0.02
+    strip = Strip(LineString(np.column_stack([x, half])), LineString(np.column_stack([x, -half])))
+    hatching = hatch(strip)
+    assert any("narrower than the shortest stroke" in p.reason for p in hatching.problems)
+    assert all(p.where.x == pytest.approx(30.0, abs=2.0) for p in hatching.problems)
+
+
+def test_strokes_may_be_at_right_angles_to_the_top_alone() -> None:
+    across = [
+        np.diff(np.stack([h.on_top, h.on_toe]), axis=0)[0]
+        for h in (hatch(trapezium(), top_share=share) for share in (0.0, 0.5, 1.0))
+    ]
+    tilts = [abs(np.degrees(np.arctan2(x, -y))) for x, y in (a.T for a in across)]
+    slant = np.degrees(np.arctan(0.06))
+    for tilt, share in zip(tilts, (0.0, 0.5, 1.0), strict=True):
+        assert tilt == pytest.approx(np.full(tilt.size, slant / 2.0 * abs(1.0 - share)), abs=0.15)
 
 
 def test_spacing_and_its_bounds() -> None:
@@ -210,6 +245,9 @@ def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
         ({"rule": "other"}, "rule is 'other', expected 'matching' or 'paper'"),
         ({"start": "top"}, "start is 'top'"),
         ({"first": "long one"}, "first is 'long one'"),
+        ({"first": "short", "pattern": "L"}, "first is 'short', but pattern 'L' has no short"),
+        ({"top_share": 1.5}, "top_share is 1.5, expected a number from 0 to 1"),
+        ({"rule": "paper", "top_share": 0.5}, "rule='paper' has no start, offset"),
         ({"offset": 0}, "offset is 0"),
         ({"stiffness": None}, "stiffness is None"),
         ({"rule": "paper", "offset": 0.5}, "rule='paper' has no start, offset"),

@@ -163,6 +163,17 @@ def test_same_strokes_far_from_the_origin(name: str) -> None:
     check(far)
 
 
+@pytest.mark.parametrize("shift", [(1.1, 2.3), (5e5, 5e6)])
+def test_ties_of_a_symmetric_slope_are_decided_alike_everywhere(shift: tuple[float, float]) -> None:
+    turn = np.linspace(np.pi, 0.0, 25)
+    unit = np.column_stack([np.cos(turn), np.sin(turn)])
+    curves = [LineString(radius * unit + (40.0, 0.0)) for radius in (6.0, 25.0)]
+    plain = hatch(Strip(*curves))
+    other = hatch(Strip(*(translate(curve, *shift) for curve in curves)))
+    assert other.on_top - shift == pytest.approx(plain.on_top, abs=5e-5)
+    assert other.on_toe - shift == pytest.approx(plain.on_toe, abs=5e-5)
+
+
 @given(strip=bands(), degrees=st.integers(1, 359))
 @settings(max_examples=20)
 def test_turning_the_slope_turns_the_strokes(strip: Strip, degrees: int) -> None:

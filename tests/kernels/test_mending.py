@@ -17,11 +17,11 @@ def scrambled(turns: list[float]) -> tuple[Strokes, Bools]:
     strip = Strip(LineString([(0, 10), (100, 10)]), LineString([(0, 0), (100, 0)]))
     middle = middle_of(strip)
     rule = Spacing(0.5, 0.1, np.inf)
-    ladder = build_ladder(middle.mesh, middle.top, middle.toe, middle.line, rule, 0.9)
+    ladder = build_ladder(middle.mesh, middle.top, middle.toe, middle.line, rule, 0.9, 0.0)
     strokes = draw_strokes(ladder, np.arange(5.0, 100.0, 5.0), rule)
     strokes.pivot[4 : 4 + len(turns), 3:5] += np.array(turns)[:, None]
     strokes.on[4 : 4 + len(turns)] = 0  # trouble
-    return strokes, mend(ladder, strokes, middle.periods, 0.9)
+    return strokes, mend(ladder, strokes, middle.periods, 0.9, False)
 
 
 @pytest.mark.parametrize("turns", [[1.0], [0.9, -0.9], [-1.0, 1.0, -1.0], [1.2, 1.2, -1.2, -1.2]])

@@ -42,6 +42,7 @@ def hatch(
     first: cli.First = None,
     end_strokes: cli.EndStrokes = False,
     stiffness: cli.Stiffness = None,
+    top_share: cli.TopShare = None,
     rule: cli.RuleOption = DrawingRule.matching,
     layer: cli.Layer = None,
     top: cli.Top = None,
@@ -72,7 +73,11 @@ def hatch(
         short_ratio=short_ratio,
     )
     options = given(
-        min_length=min_length, first=first and first.value, stiffness=stiffness, offset=offset
+        min_length=min_length,
+        first=first and first.value,
+        stiffness=stiffness,
+        top_share=top_share,
+        offset=offset,
     )
     options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
     sources = [source] if exclude is None else [source, exclude]

@@ -96,6 +96,7 @@ __all__ = [
     "Toe",
     "Tolerance",
     "Top",
+    "TopShare",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -603,6 +604,10 @@ EndStrokes: TypeAlias = Annotated[
 Stiffness: TypeAlias = Annotated[
     float | None,
     of_strokes(metavar="N", help="More turns slower at corners, less is nearer to normals: 0.9."),
+]
+TopShare: TypeAlias = Annotated[
+    float | None,
+    of_strokes(metavar="0-1", help="1: at right angles to the top; 0: to both edges alike."),
 ]
 RuleOption: TypeAlias = Annotated[
     DrawingRule, of_strokes("--rule", metavar="NAME", help="matching; paper, for comparison.")

@@ -1,8 +1,10 @@
 """Directional polylines of ``--main`` or ``--top``: which of them lies along which area."""
 
+from abc import ABC, abstractmethod
 from collections import defaultdict
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -20,11 +22,19 @@ SAMPLES = 17  # places of a line at which its distance to an area is measured
 SAME_DISTANCE = 1e-6  # areas whose mean distance differs by less, in line lengths, share a line
 
 
-class Guides(Protocol):
+class Guides(ABC):
     """Directional polylines of the features of a layer."""
 
+    @abstractmethod
+    def all_of(self, batch: "Batch") -> tuple["list[list[LineString]]", dict[int, str]]:
+        """Polylines of each feature of a batch, the longest first; why some cannot be read."""
+
     def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
-        """Polyline or None of each feature of a batch, and why some cannot be read."""
+        """Polyline or None of each feature of a batch, the longest; why some cannot be read."""
+        lines, unreadable = self.all_of(batch)
+        found = np.full(len(lines), None, dtype=object)
+        found[:] = [some[0] if some else None for some in lines]
+        return found, unreadable
 
 
 def guides_for(main: str | None, path: Path, source: "Source", option: str = "--main") -> Guides:
@@ -59,91 +69,89 @@ def guides_for(main: str | None, path: Path, source: "Source", option: str = "--
     raise ParameterError(msg)
 
 
-class NoGuides(NamedTuple):
+class NoGuides(Guides):
     """No feature has one."""
 
-    def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
-        """None for every feature."""
-        return np.full(len(batch.geometries), None, dtype=object), {}
+    def all_of(self, batch: "Batch") -> tuple["list[list[LineString]]", dict[int, str]]:
+        """None for any feature."""
+        return [[] for _ in batch.geometries], {}
 
 
-class FieldGuides(NamedTuple):
+@dataclass(frozen=True)
+class FieldGuides(Guides):
     """A field holds them as WKT or as WKB in hexadecimal digits."""
 
     field: str
 
-    def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
-        """Geometries of the field."""
-        found = np.full(len(batch.geometries), None, dtype=object)
+    def all_of(self, batch: "Batch") -> tuple["list[list[LineString]]", dict[int, str]]:
+        """Lines of the field."""
+        found: list[list[LineString]] = []
         unreadable = {}
         for i, text in enumerate(batch.attributes[self.field].to_pylist()):
-            if text is None:
-                continue
-            line = line_of_text(text)
-            if line is None:
+            found.append([] if text is None else lines_of_text(text))
+            if text is not None and not found[i]:
                 shown = repr(text if len(str(text)) < 40 else f"{str(text)[:37]}…")
                 unreadable[i] = f"the field {self.field!r} is {shown}, expected a line in WKT"
-            found[i] = line
         return found, unreadable
 
 
-class KeyedGuides(NamedTuple):
+@dataclass(frozen=True)
+class KeyedGuides(Guides):
     """A field that areas and lines have in common tells."""
 
     field: str
-    lines: dict[object, LineString]
+    lines: dict[object, list[LineString]]
 
-    def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
+    def all_of(self, batch: "Batch") -> tuple["list[list[LineString]]", dict[int, str]]:
         """Lines with the keys of the batch."""
-        found = np.full(len(batch.geometries), None, dtype=object)
-        found[:] = [self.lines.get(key) for key in batch.attributes[self.field].to_pylist()]
-        return found, {}
+        keys = batch.attributes[self.field].to_pylist()
+        return [self.lines.get(key, []) for key in keys], {}
 
 
-class PlacedGuides:
+class PlacedGuides(Guides):
     """Each line belongs to the area whose boundary it is nearest to all along."""
 
     def __init__(self, areas: "Geometries", lines: "list[LineString]") -> None:
-        self.guides = np.full(len(areas), None, dtype=object)
+        self.lines: list[list[LineString]] = [[] for _ in areas]
         boundaries = shapely.boundary(areas)
         tree = shapely.STRtree(areas)
-        for line in sorted(lines, key=lambda line: line.length):  # the longest one has its way
+        for line in sorted(lines, key=lambda line: -line.length):
             near = tree.query(line)
             if near.size == 0:
                 near = tree.query_nearest(line)
             samples = line.interpolate(np.linspace(0.0, 1.0, SAMPLES), normalized=True)
             distance = shapely.distance(samples[None, :], boundaries[near, None]).mean(axis=1)
             nearest = distance.min(initial=line.length)  # nothing farther off lies along it
-            self.guides[near[distance <= nearest + SAME_DISTANCE * line.length]] = line
+            for k in near[distance <= nearest + SAME_DISTANCE * line.length].tolist():
+                self.lines[k].append(line)
 
-    def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
+    def all_of(self, batch: "Batch") -> tuple["list[list[LineString]]", dict[int, str]]:
         """Lines of the areas of the batch."""
-        return self.guides[batch.first : batch.first + len(batch.geometries)], {}
+        return self.lines[batch.first : batch.first + len(batch.geometries)], {}
 
 
-def line_of_text(text: object) -> LineString | None:
-    """Read a line in WKT or hexadecimal WKB, None if it is none."""
+def lines_of_text(text: object) -> list[LineString]:
+    """Read lines in WKT or hexadecimal WKB, the longest first; none if it holds none."""
     try:
         with np.errstate(invalid="ignore"):  # a coordinate may be no number
             is_hex = set(str(text)) <= HEXADECIMAL
             read = shapely.from_wkb(text) if is_hex else shapely.from_wkt(text)
     except (shapely.errors.GEOSException, TypeError):
-        return None
-    return longest_line(np.array([read], dtype=object))
+        return []
+    return joined_lines(np.array([read], dtype=object))
 
 
 HEXADECIMAL = set("0123456789abcdefABCDEF")
 
 
-def longest_line(geometries: "Geometries") -> LineString | None:
-    """Return the longest line when pieces that meet are joined, None if there is none."""
+def joined_lines(geometries: "Geometries") -> list[LineString]:
+    """Lines when pieces that meet are joined, the longest first."""
     pieces = shapely.get_parts(geometries)
     pieces = pieces[shapely.get_type_id(pieces) == shapely.GeometryType.LINESTRING]
     known = [bool(np.isfinite(shapely.get_coordinates(piece)).all()) for piece in pieces]
     pieces = pieces[np.array(known, dtype=np.bool_)]  # others cannot be merged
     joined = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(pieces), directed=True))
-    joined = joined[shapely.length(joined) > 0.0]
-    return joined[np.argmax(shapely.length(joined))] if joined.size else None
+    return sorted(joined[shapely.length(joined) > 0.0], key=lambda line: -line.length)
 
 
 def all_geometries(path: Path, layer: str) -> "Geometries":
@@ -155,13 +163,12 @@ def all_geometries(path: Path, layer: str) -> "Geometries":
 
 
 def lines_of(path: Path, layer: str) -> list[LineString]:
-    """Read the lines of a layer, one for each feature that has any."""
-    lines = (longest_line(row) for row in all_geometries(path, layer)[:, None])
-    return [line for line in lines if line is not None]
+    """Read the lines of a layer; pieces of a feature are joined where they meet."""
+    return [line for row in all_geometries(path, layer)[:, None] for line in joined_lines(row)]
 
 
-def lines_by_key(path: Path, layer: str, field: str, option: str) -> dict[object, LineString]:
-    """Read the line of each key; pieces with the same key are joined where they meet."""
+def lines_by_key(path: Path, layer: str, field: str, option: str) -> dict[object, list[LineString]]:
+    """Read the lines of each key; pieces with the same key are joined where they meet."""
     pieces: dict[object, list[object]] = defaultdict(list)
     with open_layer(path, layer) as source:
         if field not in source.attributes.names:
@@ -174,5 +181,5 @@ def lines_by_key(path: Path, layer: str, field: str, option: str) -> dict[object
             keys = batch.attributes[field].to_pylist()
             for key, geometry in zip(keys, batch.geometries, strict=True):
                 pieces[key].append(geometry)
-    lines = {key: longest_line(np.array(some, dtype=object)) for key, some in pieces.items()}
-    return {key: line for key, line in lines.items() if line is not None and key is not None}
+    lines = {key: joined_lines(np.array(some, dtype=object)) for key, some in pieces.items()}
+    return {key: some for key, some in lines.items() if some and key is not None}

@@ -180,8 +180,8 @@ def tops_for(hints: Hints, path: Path, source: "Source") -> Finder:
         guides = guides_for(hints.top, path, source, "top")
 
         def along(batch: "Batch") -> "list[list[Top] | str]":
-            lines, unreadable = guides.of(batch)
-            return [unreadable.get(k) or ([] if x is None else [x]) for k, x in enumerate(lines)]
+            lines, unreadable = guides.all_of(batch)
+            return [unreadable.get(k) or [*some] for k, some in enumerate(lines)]
 
         return along
     starts = points_for(str(hints.start), "start", path, source)

@@ -68,7 +68,7 @@ def edges_between(area: Polygon, start: "Floats", end: "Floats") -> Edges:
     ------
     SlopeError
         If start or end is not on the boundary, they are on two rings, or are one place of an area
-        without a hole.
+        without a hole for its toe.
     """
     rings, near = rings_of(area), NEAR * mean_width(area)
     first, doubts = placed(rings, start, near, "start")
@@ -124,20 +124,21 @@ def edges_along(area: Polygon, line: LineString) -> Edges:
 
 
 def all_round(rings: "list[Floats]", place: Place) -> Edges:
-    """Take a whole ring for the top, from a place on; the other ring is the toe.
+    """Take a whole ring for the top, from a place on; the toe is another ring.
+
+    A hole falls to the outer ring, and other holes are islands. The outer ring falls to the hole
+    that is larger than all others together; these are islands.
 
     Raises
     ------
     SlopeError
-        If the area has not exactly two rings.
+        If there is no such ring.
     """
     where = point_at(rings[place.ring], place.position)
-    if len(rings) != 2:
-        msg = f"start and end of the top are one place, of an area with {len(rings) - 1} holes"
-        raise SlopeError(f"{msg}, expected one hole", where)
+    below = 0 if place.ring > 0 else largest_hole(rings, where)
     top = run(rings[place.ring], place, place)
-    other = rings[1 - place.ring]
-    beside = Place(1 - place.ring, int(np.argmin(np.hypot(*(other[:-1] - where).T))), 0.0, 0.0)
+    other = rings[below]
+    beside = Place(below, int(np.argmin(np.hypot(*(other[:-1] - where).T))), 0.0, 0.0)
     toe = run(other, beside, beside)
     if (turning(top) > 0.0) != (turning(toe) > 0.0):
         toe = toe[::-1]
@@ -146,6 +147,26 @@ def all_round(rings: "list[Floats]", place: Place) -> Edges:
         reason = "start and end of the top are one place of the outer ring, expected one of a hole"
         doubts = (Doubt("orientation", reason, Point(where)),)
     return Edges(LineString(top), LineString(toe), doubts)
+
+
+def largest_hole(rings: "list[Floats]", where: "Floats") -> int:
+    """Hole that is larger than all others together.
+
+    Raises
+    ------
+    SlopeError
+        If there is none.
+    """
+    sizes = [0.0, *(abs(turning(ring)) for ring in rings[1:])]
+    largest = int(np.argmax(sizes))
+    if not 2.0 * sizes[largest] > sum(sizes):
+        many = f"{len(rings) - 1} holes, none larger than the others together"
+        msg = (
+            "start and end of the top are one place of the outer ring, of an area with "
+            f"{many if len(rings) > 1 else 'no hole'}, expected one hole for its toe"
+        )
+        raise SlopeError(msg, where)
+    return largest
 
 
 def rings_of(area: Polygon) -> "list[Floats]":

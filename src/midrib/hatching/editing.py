@@ -10,7 +10,7 @@ from midrib.checks import shown
 from midrib.errors import ParameterError
 from midrib.hatching.finishing import lines_of
 from midrib.hatching.hatch import Hatching, gaps_between
-from midrib.hatching.matching import Ground
+from midrib.hatching.laying import Ground
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.crossings import meet
 from midrib.kernels.ladder import draw_strokes

@@ -8,6 +8,7 @@ from shapely import MultiPolygon, Point, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.bare import bare_stretches
+from midrib.hatching.chains import Chain
 from midrib.hatching.matching import Drawn
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
@@ -15,6 +16,7 @@ from midrib.types import Bools, Floats
 
 __all__ = ["Finished", "Problem", "finish", "lines_of", "zones_of"]
 
+TINY = 2.0**-1000
 LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other
 
 
@@ -41,12 +43,12 @@ def finish(
     first: str | None,
     zones: Any,
     strip: Strip,
-    *,
-    keep_apart: bool,
+    edges: tuple[Chain, Chain] | None,
 ) -> Finished:
     """Decide what is drawn.
 
-    The pattern counts the strokes that have a place, whether a zone hides them or not.
+    The pattern counts the strokes that have a place, whether a zone hides them or not. With edges,
+    the strokes are kept apart, and stretches of the edges that are bare are told.
     """
     problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
     if not drawn.kept.size:
@@ -58,16 +60,20 @@ def finish(
         middle = drawn.middle[len(drawn.middle) // 2]
         reason = f"the slope is nowhere as wide as the shortest stroke, {least:.3g}; none is drawn"
         problems.append(Problem(Point(middle), reason))
+    problems += too_narrow(drawn, kept, strip)
     gap = rule.gaps(width)
-    if keep_apart:
+    if edges is not None:
         kept &= ~too_near(drawn, kept, gap, problems)
     is_long = np.zeros(kept.size, dtype=np.bool_)
     letters = pattern_from(rule.pattern, first)
     is_long[kept] = [letters[k % len(letters)] == "L" for k in range(np.count_nonzero(kept))]
-    share = np.where(is_long, 1.0, rule.short_ratio)
-    if keep_apart:
+    # What is drawn of a short one is not shorter than the shortest stroke either.
+    short = np.clip(least / np.maximum(width, TINY), rule.short_ratio, 1.0)
+    share = np.where(is_long, 1.0, short)
+    if edges is not None:
         shorten(drawn, kept & is_long, gap, share, problems)
-        for bare in bare_stretches(strip, rule, drawn.on_top[kept], drawn.on_toe[kept], least):
+        ends = drawn.on_top[kept], drawn.on_toe[kept], drawn.feet[kept]
+        for bare in bare_stretches(edges, rule, *ends, least):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
             problems.append(Problem(bare.where, reason))
     hide(drawn, kept, share, zones, strip, problems)
@@ -76,16 +82,27 @@ def finish(
 
 def pattern_from(pattern: str, first: str | None) -> str:
     """Return the pattern, begun where it has a long or a short stroke if asked to."""
-    letter = {"long": "L", "short": "S"}.get(first or "")
-    if letter is None or letter not in pattern:
+    if first is None:
         return pattern
-    at = pattern.index(letter)
+    at = pattern.index(first[0].upper())
     return pattern[at:] + pattern[:at]
+
+
+def too_narrow(drawn: Drawn, kept: Bools, strip: Strip) -> list[Problem]:
+    """Strokes left out at necks, narrower than the shortest stroke; tips are no news."""
+    reason = "the slope is narrower than the shortest stroke here; one is left out"
+    rows = np.flatnonzero(kept)
+    inner = drawn.kept & ~kept
+    if rows.size and not strip.is_closed:
+        inner[: rows[0]], inner[rows[-1] :] = False, False
+    return [Problem(Point(p), reason) for p in drawn.middle[inner & kept.any()]]
 
 
 def too_near(drawn: Drawn, kept: Bools, gap: Floats, problems: list[Problem]) -> Bools:
     """Which strokes begin so near to the one before that only one of them can be drawn."""
     near = np.zeros(kept.size, dtype=np.bool_)
+    if are_apart(drawn.on_top, kept, gap):
+        return near
     last = -1
     for row in np.flatnonzero(kept).tolist():
         if last >= 0 and off(drawn.on_top, last, row) < LEAST_FOOT * (gap[last] + gap[row]) / 2.0:
@@ -101,6 +118,8 @@ def shorten(
     drawn: Drawn, whole: Bools, gap: Floats, share: Floats, problems: list[Problem]
 ) -> None:
     """Let whole strokes end where the one before is still far enough, if not at the toe."""
+    if are_apart(drawn.on_toe, whole, gap):
+        return
     last = -1
     for row in np.flatnonzero(whole).tolist():
         least = LEAST_FOOT * (gap[last] + gap[row]) / 2.0
@@ -114,6 +133,12 @@ def shorten(
         problems.append(Problem(Point(drawn.on_toe[row]), reason))
 
 
+def are_apart(points: Floats, chosen: Bools, gap: Floats) -> bool:
+    """Whether ends of chosen strokes are as far from each other as they have to be."""
+    steps, gaps = np.diff(points[chosen], axis=0), gap[chosen]
+    return bool((np.hypot(*steps.T) >= LEAST_FOOT * (gaps[1:] + gaps[:-1]) / 2.0).all())
+
+
 def off(points: Floats, i: int, j: int) -> float:
     """Distance between two points."""
     return float(np.hypot(points[j, 0] - points[i, 0], points[j, 1] - points[i, 1]))
@@ -123,7 +148,7 @@ def hide(
     drawn: Drawn, kept: Bools, share: Floats, zones: Any, strip: Strip, problems: list[Problem]
 ) -> None:
     """Leave out strokes that enter a zone or meet an island."""
-    islands = [] if strip.is_closed else [Polygon(ring) for ring in strip.area.interiors]
+    islands = islands_of(strip)
     if not islands and zones is None:
         return
     rows = np.flatnonzero(kept)
@@ -136,6 +161,15 @@ def hide(
                 kept[row] = False
                 reason = "an island of the slope is in the way; one stroke is left out"
                 problems.append(Problem(Point(drawn.middle[row]), reason))
+
+
+def islands_of(strip: Strip) -> list[Polygon]:
+    """Return the holes of a slope that are neither its top nor its toe."""
+    holes = [Polygon(ring) for ring in strip.area.interiors]
+    if not strip.is_closed:
+        return holes
+    edges = [Polygon(strip.main), Polygon(strip.auxiliary)]
+    return [hole for hole in holes if not any(map(hole.equals, edges))]
 
 
 def lines_of(on_top: Floats, on_toe: Floats, share: Floats) -> Any:

@@ -8,7 +8,8 @@ import numpy as np
 from midrib.checks import check_flag, is_number, shown
 from midrib.errors import ParameterError
 from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
-from midrib.hatching.matching import Drawn, Ground, Start, draw_by_matching
+from midrib.hatching.laying import Ground
+from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
 from midrib.hatching.rule import LEAST_LENGTH, MILLIMETRES, Rule, rule_of
 from midrib.strip import Strip, check_strip
@@ -23,6 +24,7 @@ __all__ = ["Hatching", "hatch"]
 STIFFNESS = 0.9  # see hatch
 MOST_STIFF = 100.0  # from there on all strokes of a slope are parallel
 LARGEST = float(np.finfo(np.float64).max)
+PAPER = ("left", 1.0, False, STIFFNESS, 0.0)  # options that the paper's procedure does not have
 STARTS = ("left", "right", "first", "last")
 RULES = ("matching", "paper")
 
@@ -96,6 +98,7 @@ def hatch(
     end_strokes: bool = False,
     exclude: Any = None,
     stiffness: float = STIFFNESS,
+    top_share: float = 0.0,
 ) -> Hatching:
     """Hatch a slope with strokes from its top to its toe.
 
@@ -114,8 +117,8 @@ def hatch(
     rule : {"matching", "paper"}, default "matching"
         "matching" is the engine described here. "paper" is the procedure of the paper, for
         comparison: from the first point of the top on, to the nearest point of the toe that is
-        seen; such strokes may share feet and cross. It has no start, offset, end strokes and
-        stiffness.
+        seen; such strokes may share feet and cross. It has no start, offset, end strokes,
+        stiffness and top share.
     metres_per_unit : float, default 1
         Length of a unit of the coordinates.
     factor : float, optional
@@ -126,7 +129,8 @@ def hatch(
         Least and largest gap in paper millimetres, in place of the standard's.
     min_length : float, optional
         Whole strokes shorter than this on paper, in millimetres, are not drawn: at tips, strokes
-        end there. A quarter of the least gap unless given, about the width of the line.
+        end there. Nor is what is drawn of a short one shorter. A quarter of the least gap unless
+        given, about the width of the line.
     pattern : str, optional
         Long and short strokes in turn: "LS", "LSS", "LSSL", "L".
     short_ratio : float, optional
@@ -141,7 +145,8 @@ def hatch(
     first : {"long", "short"}, optional
         What the first stroke is; that of the pattern unless given.
     end_strokes : bool, default False
-        Draw whole strokes on the straight ends of the slope too, where it has such ends.
+        Draw whole strokes on the straight ends of the slope too, where it has such ends; others
+        whose ends would be nearer to theirs than 0.3 gaps give way.
     exclude : Polygon, MultiPolygon or sequence of them, optional
         Zones that no stroke may enter; the others stay where they are.
     stiffness : float, default 0.9
@@ -198,20 +203,32 @@ def hatch(
     check_choice(rule, "rule", RULES)
     check_choice(start, "start", STARTS)
     check_choice(first, "first", (None, "long", "short"))
+    if first == "short" and "S" not in ground.pattern:
+        msg = f"first is 'short', but pattern {ground.pattern!r} has no short stroke"
+        raise ParameterError(msg)
     check_flag(end_strokes, "end_strokes")
     check_above_zero(offset, "offset")
     check_above_zero(stiffness, "stiffness", MOST_STIFF)
+    if not is_number(top_share) or not 0.0 <= top_share <= 1.0:
+        msg = f"top_share is {shown(top_share)}, expected a number from 0 to 1"
+        raise ParameterError(msg)
     least = least_length(min_length, ground, scale / MILLIMETRES / metres_per_unit)
     zones = zones_of(exclude)
     where: Ground | None = None
     if rule == "paper":
-        if (start, offset, end_strokes, stiffness) != ("left", 1.0, False, STIFFNESS):
-            msg = "rule='paper' has no start, offset, end_strokes and stiffness, found one of them"
+        if (start, offset, end_strokes, stiffness, top_share) != PAPER:
+            msg = (
+                "rule='paper' has no start, offset, end_strokes, stiffness and top_share, found "
+                "one of them"
+            )
             raise ParameterError(msg)
         drawn = draw_by_paper(strip, ground)
     else:
-        drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness)
-    finished = finish(drawn, ground, least, first, zones, strip, keep_apart=rule != "paper")
+        drawn, where = draw_by_matching(
+            strip, ground, start, offset, end_strokes, stiffness, top_share
+        )
+    edges = None if where is None else where.middle.edges
+    finished = finish(drawn, ground, least, first, zones, strip, edges)
     return assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )

@@ -8,6 +8,7 @@ import shapely
 
 from midrib.curves.construction import Construction
 from midrib.errors import InvalidAreaError
+from midrib.hatching.chains import Chain as Edge
 from midrib.kernels.chain import Chain
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.slit import around, slit_open
@@ -19,6 +20,7 @@ from midrib.types import Floats
 __all__ = ["Middle", "lay_out_slope", "middle_of"]
 
 CENTRED = "0.2%"  # of the width: decisions that rounding may change then make no visible difference
+GRID_BITS = 24  # a cell of the grid is so many halvings of the extent
 SIDE, ALONG = 0.5, 0.7  # cosines of the angles with the top at which an edge is a side, or a toe
 LONGEST_SIDE = 2.0  # mean widths
 NO_ENDS = EndPoints(
@@ -44,20 +46,54 @@ class Middle(NamedTuple):
         return bool((self.line[0] == self.line[-1]).all())
 
     @property
+    def length(self) -> float:
+        """Length of the middle line."""
+        return float(np.hypot(*np.diff(self.line, axis=0).T).sum())
+
+    @property
+    def edges(self) -> tuple[Edge, Edge]:
+        """Top and toe as polylines with the stations that strokes have."""
+        corners = np.column_stack([self.mesh.x, self.mesh.y])
+        top, toe = (Edge(corners[c.vertex], c.arc, self.is_closed) for c in (self.top, self.toe))
+        return top, toe
+
+    @property
     def periods(self) -> Floats:
         """Lengths of top, toe and line of a closed slope, 0 of an open one."""
-        total = np.hypot(*np.diff(self.line, axis=0).T).sum()
-        lengths = np.array([self.top.arc[-1], self.toe.arc[-1], total])
+        lengths = np.array([self.top.arc[-1], self.toe.arc[-1], self.length])
         return lengths if self.is_closed else np.zeros(3)
 
 
 def middle_of(strip: Strip) -> Middle:
     """Middle line of a slope: as far from the top as from the toe."""
+    plain, corner = on_grid(strip)
     if strip.is_closed:
-        return middle_of_ring(strip)
+        ring = lay_out_ring(strip)
+        return ring._replace(line=line_around(plain) + corner)
     layout, is_turned = lay_out_slope(strip)
-    _, path = Construction(centring="centred", tolerance=CENTRED, ends="caps").of(capped(layout))
-    return Middle(layout.mesh, layout.main, layout.auxiliary, path.points, is_turned)
+    same, _ = (layout, is_turned) if plain is strip else lay_out_slope(plain)
+    _, path = Construction(centring="centred", tolerance=CENTRED, ends="caps").of(capped(same))
+    return Middle(layout.mesh, layout.main, layout.auxiliary, path.points + corner, is_turned)
+
+
+def on_grid(strip: Strip) -> tuple[Strip, Floats]:
+    """Strip without islands from its lower left corner on, rounded to a grid, and that corner.
+
+    The same slope elsewhere is the same strip, but for what rounding makes of its place: what is
+    a tie, on a slope that is its own mirror image, is decided alike. A strip that is none on the
+    grid stays as it is.
+    """
+    corners = np.array(strip.area.bounds).reshape(2, 2)
+    cell = 2.0 ** (np.frexp(np.ptp(corners, axis=0).max())[1] - GRID_BITS)
+
+    def moved(points: Floats) -> Floats:
+        cells: Floats = np.round((points - corners[0]) / cell) * cell
+        return cells
+
+    with suppress(InvalidAreaError):
+        curves = (shapely.transform(curve, moved) for curve in (strip.main, strip.auxiliary))
+        return Strip(*curves), corners[0]
+    return strip, np.zeros(2)
 
 
 def lay_out_slope(strip: Strip) -> tuple[Layout, bool]:
@@ -148,24 +184,32 @@ def backwards(chain: Chain) -> Chain:
     return Chain(chain.vertex[::-1].copy(), chain.side[::-1].copy(), arc)
 
 
-def middle_of_ring(strip: Strip) -> Middle:
+def lay_out_ring(strip: Strip) -> Middle:
+    """Slope around a mound or a pit, without islands; it has no line yet."""
+    top_is_hole = shapely.Polygon(strip.main).area < shapely.Polygon(strip.auxiliary).area
+    inner, outer = (strip.main, strip.auxiliary)[:: 1 if top_is_hole else -1]
+    boundary = boundary_of(*rings_of_area(shapely.Polygon(outer, [inner])))
+    mesh = boundary.mesh
+    sides = side_of_hole(boundary), int(boundary.side[0])
+    top_side, toe_side = sides if top_is_hole else sides[::-1]
+    top_vertex, toe_vertex = int(mesh.tri[top_side]), int(mesh.tri[toe_side])
+    top = around(mesh, top_side, top_vertex, top_vertex, False)
+    toe = around(mesh, toe_side, toe_vertex, toe_vertex, True)
+    is_turned = shapely.is_ccw(shapely.LinearRing(strip.main.coords)) == top_is_hole
+    return Middle(mesh, top, toe, np.zeros((0, 2)), bool(is_turned))
+
+
+def line_around(strip: Strip) -> Floats:
     """Middle line of a slope around a mound or a pit.
 
     Of the ring slit open at one seam, half of the line is taken, far from the seam; the other half
     of the ring slit open on the other side.
     """
-    boundary = boundary_of(*rings_of_area(strip.area))
-    mesh = boundary.mesh
-    hole_side = side_of_hole(boundary)
-    top_is_hole = shapely.Polygon(strip.main).area < shapely.Polygon(strip.auxiliary).area
-    sides = (
-        (hole_side, int(boundary.side[0])) if top_is_hole else (int(boundary.side[0]), hole_side)
-    )
-    top_vertex, toe_vertex = (int(mesh.tri[side]) for side in sides)
-    top = around(mesh, sides[0], top_vertex, top_vertex, False)
-    toe = around(mesh, sides[1], toe_vertex, toe_vertex, True)
+    mesh, top, toe, _, _ = lay_out_ring(strip)
     seam, other = seams(mesh, top, toe)
-    width = 2.0 * strip.area.area / (top.arc[-1] + toe.arc[-1])
+    area = abs(shapely.Polygon(strip.main).area - shapely.Polygon(strip.auxiliary).area)
+    width = 2.0 * area / (top.arc[-1] + toe.arc[-1])
+    sides = int(top.side[0]), int(toe.side[-1])
     station = dict(zip(top.vertex[:-1].tolist(), top.arc[:-1].tolist(), strict=True))
     at = [station[int(mesh.tri[e])] for e in (seam, other)]
     ahead = (at[1] - at[0]) % top.arc[-1]  # from the seam to the other one
@@ -176,9 +220,8 @@ def middle_of_ring(strip: Strip) -> Middle:
     ]
     line = np.concatenate([halves[0][:-1], halves[1]])
     line[-1] = line[0]  # the same point, up to the tolerance of centring
-    line = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
-    is_turned = shapely.is_ccw(shapely.LinearRing(strip.main.coords)) == top_is_hole
-    return Middle(mesh, top, toe, line, bool(is_turned))
+    distinct: Floats = line[np.append(True, (line[1:] != line[:-1]).any(axis=1))]
+    return distinct
 
 
 def side_of_hole(boundary: Boundary) -> int:

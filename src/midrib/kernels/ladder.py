@@ -21,7 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from midrib.kernels.chain import Chain
-from midrib.kernels.chords import Chord, Ground, ground_of, locate, shoot
+from midrib.kernels.chords import ON_TOP, Chord, Ground, ground_of, locate, shoot
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
@@ -29,7 +29,7 @@ from midrib.kernels.paths import walk
 from midrib.kernels.tables import with_rows
 from midrib.types import Floats, Ints
 
-__all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at"]
+__all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at", "turn_rungs"]
 
 RUNGS = 8.0  # for each gap
 MOST_RUNGS = 2**24
@@ -117,6 +117,19 @@ def normal_at(line: Floats, arc: Floats, k: int, tau: float, half: float, is_clo
     return np.arctan2(bx - ax, ay - by)
 
 
+@njit(borrows=True)
+def point_of(mesh: Mesh, chain: Chain, station: float, is_closed: bool) -> tuple[float, float]:
+    """Point of a chain at a station, which goes round a closed one."""
+    arc = chain.arc
+    m = arc.size
+    at = station % arc[m - 1] if is_closed else min(max(station, 0.0), arc[m - 1])
+    k = min(max(np.searchsorted(arc, at, side="right") - 1, 0), m - 2)
+    share = min((at - arc[k]) / (arc[k + 1] - arc[k]), 1.0)
+    a, b = chain.vertex[k], chain.vertex[k + 1]
+    x = mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
+    return x, mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
+
+
 @njit()
 def spline(tau: Floats, normal: Floats, reach: Floats) -> Floats:
     """Directions that minimise the integral above; ``reach`` is stiffness w at each rung. O(n).
@@ -188,7 +201,13 @@ def calm_down(rungs: Floats, n: int, total: float, stiffness: float, is_closed: 
 
 @njit(entry=True)
 def build_ladder(
-    mesh: Mesh, top: Chain, toe: Chain, line: Floats, rule: Spacing, stiffness: float
+    mesh: Mesh,
+    top: Chain,
+    toe: Chain,
+    line: Floats,
+    rule: Spacing,
+    stiffness: float,
+    top_share: float,
 ) -> Ladder:
     """Build the ladder of a slope.
 
@@ -199,6 +218,7 @@ def build_ladder(
     line : (m, 2) the middle line beside them, closed if its last point is its first
     rule : how wide gaps are, in ground units
     stiffness : lengths of the chord over which directions are evened out
+    top_share : 0 for normals of the line, 1 for those of the top, between them in proportion
 
     Returns
     -------
@@ -224,6 +244,11 @@ def build_ladder(
         chord = shoot(ground, t, x, y, normal)
         if n > 0 or is_closed:  # a chord from the end of an open line may lie along the boundary
             gap = gap_at(rule, chord.width)
+        if top_share > 0.0 and chord.top_on == ON_TOP:
+            ax, ay = point_of(mesh, top, chord.s - gap / 2.0, is_closed)
+            bx, by = point_of(mesh, top, chord.s + gap / 2.0, is_closed)
+            off = np.arctan2(bx - ax, ay - by) - normal
+            normal += top_share * (off - WHOLE_TURN * np.round(off / WHOLE_TURN))
         if n > 0:
             normal += WHOLE_TURN * np.round((rungs[n - 1, NORMAL] - normal) / WHOLE_TURN)
         rungs[n, TAU], rungs[n, X], rungs[n, Y] = tau, x, y
@@ -249,13 +274,33 @@ def build_ladder(
         at[n, 0], at[n, 1] = at[0, 0], m - 2
         n += 1
     # 3. Gaps, by the chords in these directions.
+    ladder = Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
+    measure_gaps(ladder, rule)
+    return ladder
+
+
+@njit(borrows=True)
+def measure_gaps(ladder: Ladder, rule: Spacing) -> None:
+    """Write the lengths of the chords of all rungs, and the gaps they ask for."""
+    rungs, line = ladder.rungs, ladder.line
+    n, m = rungs.shape[0], line.shape[0]
     for i in range(n):
-        chord = shoot(ground, at[i, 0], rungs[i, X], rungs[i, Y], rungs[i, THETA])
+        x, y, theta = rungs[i, X], rungs[i, Y], rungs[i, THETA]
+        chord = shoot(ladder.ground, ladder.at[i, 0], x, y, theta)
         rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
-    if not is_closed:
+    if line[0, 0] != line[m - 1, 0] or line[0, 1] != line[m - 1, 1]:  # open: see build_ladder
         for i, beside in ((0, 1), (n - 1, n - 2)):
             rungs[i, WIDTH], rungs[i, GAP] = rungs[beside, WIDTH], rungs[beside, GAP]
-    return Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
+
+
+@njit(entry=True)
+def turn_rungs(ladder: Ladder, theta: Floats, rule: Spacing) -> Ladder:
+    """Return the ladder with other directions of its rungs, and the gaps that they ask for."""
+    rungs = with_rows(ladder.rungs, ladder.rungs.shape[0])
+    rungs[:, THETA] = theta
+    turned = Ladder(ladder.ground, ladder.line, ladder.arc, rungs, ladder.at)
+    measure_gaps(turned, rule)
+    return turned
 
 
 @njit(borrows=True)

@@ -24,11 +24,13 @@ from midrib.kernels.paths import walk
 from midrib.kernels.predicates import orient
 from midrib.types import Bools, Floats
 
-__all__ = ["LEAST_FOOT", "MOST_FOOT", "crosses", "mend"]
+__all__ = ["LEAST_FOOT", "MOST_FOOT", "MOST_TURN", "crosses", "mend"]
 
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
 FOOT_COST = 60.0  # squared radians per squared gap
+MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more, and more than calm ones, cost
+TURN_COST = 60.0  # for each squared radian
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
 SKIP = 8  # strokes left out in a row
 FAN = 15  # directions on either side, first of
@@ -88,12 +90,16 @@ def is_calm(strokes: Strokes, i: int, periods: Floats) -> bool:
 def cost_of_step(
     strokes: Strokes, i: int, j: int, turn: float, ahead: float, beside: float, stiffness: float
 ) -> float:
-    """Cost of strokes i and j in turn: of bends that calm ones have not, of feet near or far."""
+    """Cost of strokes i and j: of bends that calm ones have not, of feet near or far, of turns."""
     gap = (strokes.pivot[i, 5] + strokes.pivot[j, 5]) / 2.0
     step = strokes.pivot[j, 0] - strokes.pivot[i, 0]
     reach = stiffness * (strokes.chord[i, 6] + strokes.chord[j, 6]) / 2.0
     cost = reach * reach / (step * gap) * turn * turn
     missing = j - i - 1
+    calm = strokes.pivot[j, 3] - strokes.pivot[i, 3]
+    most = max(MOST_TURN * (missing + 1), abs(calm))
+    over = max(abs(calm + turn) - most, 0.0)
+    cost += TURN_COST * over * over
     for foot in (ahead / gap, beside / gap):
         off = max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0)
         cost += FOOT_COST * off * off
@@ -215,7 +221,9 @@ def is_inside(mesh: Mesh, strokes: Strokes, i: int) -> bool:
 
 
 @njit(entry=True)
-def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) -> Bools:
+def mend(
+    ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float, is_final: bool
+) -> Bools:
     """Mend strokes in place.
 
     Parameters
@@ -225,6 +233,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one; on a
         closed one the last stroke is the first one again, a turn later, and both stay as they are
     stiffness : as for the ladder
+    is_final : whether directions stay, so that strokes that will not do are only left out
 
     Returns
     -------
@@ -234,7 +243,7 @@ def mend(ladder: Ladder, strokes: Strokes, periods: Floats, stiffness: float) ->
     n = strokes.triangle.size
     kept, is_ring = np.ones(n, np.bool_), periods[0] > 0.0
     # 1. Runs of trouble.
-    i = 0
+    i = n if is_final else 0
     while i < n:
         is_good = leads_down(strokes, i) and (i == n - 1 or is_calm(strokes, i, periods))
         if is_good:

@@ -1,6 +1,7 @@
 """DXF: a layer for what each standard draws, in its line weight; figures as blocks.
 
-Coordinates are those of the map. A layout shows all of it at scale. Objects carry their identifier
+Coordinates are those of the map; lines have heights if both edges of their object have. A layout
+shows all of it at scale. Objects carry their identifier
 and the number of the stroke as extended data of the application MIDRIB.
 """
 
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
 
     from midrib.formats.drawing.content import Drawing, Drawn
+    from midrib.formats.drawing.heights import Relief
     from midrib.hatching.drawn import Figure
     from midrib.hatching.standards import Standard
 
@@ -51,6 +53,7 @@ def write_dxf(path: "Path", drawing: "Drawing") -> None:
     for drawn in drawing.objects:
         add_object(document, drawn)
     add_problems(document, drawing)
+    set_extents(document)
     add_layout(document, drawing)
     document.saveas(path)
 
@@ -103,9 +106,9 @@ def add_object(document: "Document", drawn: "Drawn") -> None:
         entity.set_xdata(APPLICATION, data)
 
     for line in symbols.edges:
-        tag(add_chain(space, line, attributes("outline")))
+        tag(add_chain(space, line, attributes("outline"), drawn.relief))
     for line, number in zip(symbols.lines, symbols.line_stroke, strict=True):
-        tag(add_chain(space, line, attributes("strokes")), int(number))
+        tag(add_chain(space, line, attributes("strokes"), drawn.relief), int(number))
     for area, number in zip(symbols.areas, symbols.area_stroke, strict=True):
         hatch = space.add_hatch(color=256, dxfattribs=attributes("symbols"))  # colour by layer
         hatch.paths.add_polyline_path(shapely.get_coordinates(area)[:-1].tolist(), is_closed=True)
@@ -117,10 +120,15 @@ def add_object(document: "Document", drawn: "Drawn") -> None:
             tag(space.add_blockref(block, tuple(at), attributes("symbols") | scales), int(number))
 
 
-def add_chain(space: Any, line: Any, attributes: dict[str, Any]) -> Any:
-    """Add a polyline."""
+def add_chain(space: Any, line: Any, attributes: dict[str, Any], relief: "Relief | None") -> Any:
+    """Add a polyline, in space if heights are known; a straight one is a line then."""
     points = shapely.get_coordinates(line)
     closed = len(points) > 2 and bool((points[0] == points[-1]).all())
+    if relief is not None:
+        corners = relief.raised(points[: -1 if closed else None]).tolist()
+        if len(corners) == 2:
+            return space.add_line(*corners, dxfattribs=attributes)
+        return space.add_polyline3d(corners, close=closed, dxfattribs=attributes)
     return space.add_lwpolyline(
         points[: -1 if closed else None].tolist(), close=closed, dxfattribs=attributes
     )
@@ -161,6 +169,15 @@ def add_problems(document: "Document", drawing: "Drawing") -> None:
             dxfattribs=attributes,
         )
         text.set_placement(at)
+
+
+def set_extents(document: "Document") -> None:
+    """Tell how far everything reaches, notes too: viewers start with that."""
+    from ezdxf.bbox import extents
+
+    found = extents(document.modelspace(), fast=True)
+    if found.has_data:
+        document.modelspace().reset_extents(found.extmin, found.extmax)
 
 
 def add_layout(document: "Document", drawing: "Drawing") -> None:

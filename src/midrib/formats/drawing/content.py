@@ -12,6 +12,7 @@ from midrib.formats.writing import Features
 if TYPE_CHECKING:
     from shapely import Point
 
+    from midrib.formats.drawing.heights import Relief
     from midrib.formats.reading import Geometries
     from midrib.hatching.drawn import Symbols
     from midrib.hatching.standards import Standard
@@ -47,6 +48,7 @@ class Drawn:
     is_long: "Bools | None" = None  # of each stroke, if it is made of strokes
     width: "Floats | None" = None  # of the object at each stroke, from top to toe
     attributes: dict[str, object] = field(default_factory=dict)  # what its register says of it
+    relief: "Relief | None" = None  # its heights, if both edges have them all along
 
 
 class Trouble(NamedTuple):

@@ -10,6 +10,7 @@ from shapely import LineString, Point
 from midrib import interrupts
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE, Drawing, Drawn, Trouble
+from midrib.formats.drawing.heights import relief_of
 from midrib.formats.units import METRE, is_geographic, unit_of
 from midrib.hatching.draw import draw
 from midrib.hatching.keys import STROKED
@@ -101,7 +102,8 @@ def add_slope(
         drawing.problems.append(Trouble(slope.id, str(error), middle_of(slope), REFUSED))
         return
     is_long, width = (None, None) if strokes is None else (strokes.is_long, strokes.width)
-    drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes)
+    relief = relief_of(slope.top, slope.toe)
+    drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes, relief)
     drawing.objects.append(drawn)
     for problem in [] if strokes is None else strokes.problems:
         drawing.problems.append(Trouble(slope.id, problem.reason, problem.where, STROKE))
