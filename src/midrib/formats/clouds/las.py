@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from midrib.checks import check_library
+from midrib.errors import ParameterError
 from midrib.formats.clouds.common import refusing
-from midrib.formats.units import unit_of
+from midrib.formats.crs import definition
+from midrib.formats.units import is_geographic, unit_of
 from midrib.towers.cloud import CHUNK
 
 if TYPE_CHECKING:
@@ -56,14 +58,25 @@ def reference_of(header: Any) -> tuple[str | None, float | None]:
     for record in [*header.vlrs, *(header.evlrs or [])]:
         if record.record_id == WKT_RECORD:
             text = record.string if isinstance(record.string, str) else record.string.decode()
-            text = text.rstrip("\0")
-            unit = unit_of(text) if text else None
-            return text or None, None if unit is None else unit.metres
+            return told(definition(text.rstrip("\0")))
         if record.record_id == GEOTIFF_RECORD:
             keys = {key.id: key.value_offset for key in record.geo_keys}
             code = keys.get(PROJECTED_KEY, USER_DEFINED)
-            crs = None if code == USER_DEFINED else f"EPSG:{code}"
-            unit = None if crs is None else unit_of(crs)
-            told = UNITS.get(keys.get(UNIT_KEY, 0))
-            return crs, told if unit is None else unit.metres
+            crs = None if code == USER_DEFINED else definition(f"EPSG:{code}")
+            return (None, UNITS.get(keys.get(UNIT_KEY, 0))) if crs is None else told(crs)
     return None, None
+
+
+def told(crs: str | None) -> tuple[str | None, float | None]:
+    """Return a reference system and the metres of its unit.
+
+    Raises
+    ------
+    ParameterError
+        If coordinates are degrees.
+    """
+    if is_geographic(crs):
+        msg = "CLOUD is in degrees, expected a projected CRS or a local one"
+        raise ParameterError(msg)
+    unit = unit_of(crs)
+    return crs, None if unit is None else unit.metres
