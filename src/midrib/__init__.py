@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
+    from midrib.scans import tower_axis
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
@@ -53,6 +54,7 @@ __all__ = [
     "split",
     "standard",
     "standards",
+    "tower_axis",
     "write_drawing",
 ]
 
@@ -84,6 +86,7 @@ HOME = {
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",
+    "tower_axis": "midrib.scans",
     "write_drawing": "midrib.formats.drawing.write",
 }
 

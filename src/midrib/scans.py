@@ -1,6 +1,5 @@
 """The door to towers: from a scan, in memory or in a file, to the axis."""
 
-from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +9,8 @@ from midrib.towers.pipeline import Mode, Options, ShapeName, axis_of, untracked
 from midrib.towers.records import TowerAxis
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from numpy.typing import ArrayLike
 
     from midrib.towers.thinning import Thinning

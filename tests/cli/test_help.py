@@ -12,7 +12,7 @@ import pytest
 
 import midrib
 
-NAMES = ("check", "collapse", "compare", "hatch", "methods", "profile", "standards")
+NAMES = ("check", "collapse", "compare", "hatch", "methods", "profile", "standards", "tower")
 PAGES: dict[str, list[str]] = {"midrib": []} | {name: [name] for name in NAMES}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")
 

@@ -91,10 +91,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
 def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
     """Layers ``levels`` (points) and ``axis`` (one line)."""
     names = axis.levels.dtype.names or ()
-    columns = {
-        name: pa.array(axis.levels[name], from_pandas=True)
-        for name in names
-    }
+    columns = {name: pa.array(axis.levels[name], from_pandas=True) for name in names}
     points = np.empty(len(axis.levels), dtype=object)
     there = axis.is_answered
     points[there] = shapely.points(axis.points)
@@ -150,7 +147,9 @@ def outer_text(options: Options) -> str:
     """Say what was added to the uncertainty."""
     parts = []
     if options.registration:
-        parts.append(f"registration of the stations, {1e3 * options.registration / options.unit:g} mm")
+        parts.append(
+            f"registration of the stations, {1e3 * options.registration / options.unit:g} mm"
+        )
     if options.levelling:
         parts.append(f"levelling, {options.levelling:g} mm/m")
     return f", with {' and '.join(parts)}" if parts else ", without registration and levelling"

@@ -16,7 +16,6 @@ __all__ = [
     "CentringOption",
     "Channel",
     "ChannelOption",
-    "CloudIn",
     "CloudUnit",
     "ComparisonOut",
     "Connect",
@@ -62,6 +61,7 @@ __all__ = [
     "PaperSize",
     "Pattern",
     "Percent",
+    "PointsIn",
     "Quiet",
     "RadiusRange",
     "Registration",
@@ -580,7 +580,7 @@ Quiet: TypeAlias = Annotated[
     bool, of_output("--quiet", "-q", metavar="", help="No progress, no summary.")
 ]
 
-CloudIn: TypeAlias = Annotated[
+PointsIn: TypeAlias = Annotated[
     Path,
     argument(
         metavar="CLOUD", help="Points: .las .laz .e57 .ply .xyz .txt .csv .npy …, x y z with z up."

@@ -9,7 +9,7 @@ __all__ = ["tower"]
 
 
 def tower(
-    source: cli.CloudIn,
+    source: cli.PointsIn,
     report_file: cli.TowerReport = None,
     out: cli.TowerOut = None,
     mode: cli.TowerModeOption = TowerMode.joint,
@@ -39,7 +39,9 @@ def tower(
     allowed = None if tolerance is None else tolerance_from(tolerance)
     cloud = open_cloud(source)
     told = {"step": step, "near": near, "radius": radius, "registration": registration}
-    options = chosen_options(cloud, unit, told, mode=mode.value, shape=shape.value, levelling=levelling)
+    options = chosen_options(
+        cloud, unit, told, mode=mode.value, shape=shape.value, levelling=levelling
+    )
     report = Report(quiet=quiet)
     report.start(lambda: None)
 

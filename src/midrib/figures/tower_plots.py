@@ -44,7 +44,9 @@ def deviations(axis: "TowerAxis", name: str) -> "Floats":
     return millimetres(axis.levels[name] - base, axis)
 
 
-def plot_deviation(axes: "Axes", axis: "TowerAxis", name: str, tolerance: "Tolerance | None") -> None:
+def plot_deviation(
+    axes: "Axes", axis: "TowerAxis", name: str, tolerance: "Tolerance | None"
+) -> None:
     """Plot the deviation of x or y by height, with its 95 % interval and the tolerance."""
     z, off = height_of(axis), deviations(axis, name)
     half = NORMAL * millimetres(axis.levels[f"sigma_{name}"], axis)
@@ -62,8 +64,8 @@ def plot_deviation(axes: "Axes", axis: "TowerAxis", name: str, tolerance: "Toler
                       label=f"tolerance {tolerance.text}" if sign > 0 else None)  # fmt: skip
     if axis.kinks:
         at = [kink.z / axis.unit for kink in axis.kinks]
-        axes.plot([1.0] * len(at), at, "<", color=LINE, ms=4.0, mew=0.0, clip_on=False, label="kink",
-                  transform=axes.get_yaxis_transform())  # fmt: skip
+        axes.plot([1.0] * len(at), at, "<", color=LINE, ms=4.0, mew=0.0, clip_on=False,
+                  label="kink", transform=axes.get_yaxis_transform())  # fmt: skip
     reach = axes.get_xlim()
     widest = max(abs(reach[0]), abs(reach[1]), 1.0)
     axes.set_xlim(-widest, widest)
@@ -77,18 +79,20 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     known = np.isfinite(x)
     z = height_of(axis)
     axes.plot(x[known], y[known], color=AXIS, lw=0.3 / POINT)
-    chosen = apart(x, y, np.flatnonzero(known))
-    axes.plot(x[chosen], y[chosen], "o", color=LINE, ms=2.6, mew=0.0)
-    for i in chosen:
-        axes.annotate(f"{z[i]:.0f} m", (x[i], y[i]), xytext=(3, 2), textcoords="offset points",
-                      fontsize=FONT - 1.5, color=TEXT)  # fmt: skip
+    extent = max(float(np.ptp(x[known])), float(np.ptp(y[known]))) if known.any() else 1.0
     if tolerance is not None and known.any():
         height = axis.levels["z"][known][-1] - axis.summary.low
         radius = float(millimetres(tolerance.at(np.array([height]), axis.unit), axis)[0])
         turn = np.linspace(0.0, 2.0 * np.pi, 181)
         axes.plot(radius * np.cos(turn), radius * np.sin(turn), color=LIMIT, lw=0.3 / POINT,
                   ls=(0, (4.0, 2.0)))  # fmt: skip
+        extent = max(extent, 2.0 * radius)
         axes.set_title("dashed: tolerance at the top", fontsize=FONT - 1.0, color=TEXT, pad=2.0)
+    chosen = apart(x, y, np.flatnonzero(known), LABELS * extent)
+    axes.plot(x[chosen], y[chosen], "o", color=LINE, ms=2.6, mew=0.0)
+    for i in chosen:
+        axes.annotate(f"{z[i]:.0f} m", (x[i], y[i]), xytext=(3, 2), textcoords="offset points",
+                      fontsize=FONT - 1.5, color=TEXT)  # fmt: skip
     axes.axhline(0.0, color=TEXT, lw=0.4)
     axes.axvline(0.0, color=TEXT, lw=0.4)
     axes.set_aspect("equal", adjustable="datalim")
@@ -96,12 +100,11 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     finish(axes, "x (east), mm", "y (north), mm")
 
 
-def apart(x: "Floats", y: "Floats", rows: "Ints") -> "Ints":
-    """Rows of points whose labels do not lie on each other."""
-    extent = max(float(np.ptp(x[rows])), float(np.ptp(y[rows])), 1e-9) if rows.size else 1.0
+def apart(x: "Floats", y: "Floats", rows: "Ints", least: float) -> "Ints":
+    """Rows of points that are at least so far apart that their labels do not lie on each other."""
     kept: list[int] = []
     for i in rows[:: max(1, rows.size // 60)]:
-        if all(np.hypot(x[i] - x[k], y[i] - y[k]) > LABELS * extent for k in kept):
+        if all(np.hypot(x[i] - x[k], y[i] - y[k]) > least for k in kept):
             kept.append(int(i))
     return np.array(kept, dtype=np.intp)
 
@@ -174,8 +177,9 @@ def plot_section(axes: "Axes", axis: "TowerAxis", index: int) -> None:
     scale = most / (WALL * 1e3 * level["radius"] / axis.unit)
     title = f"{level['z'] / axis.unit:.1f} m, r = {level['radius'] / axis.unit:.3f} m"
     axes.set_title(title, fontsize=FONT, color=TEXT, pad=1.0)
-    axes.text(0.5, 0.0, f"residuals {1.0 / scale:.0f} times" if scale > 0 else "", fontsize=FONT - 1.5,
-              color=TEXT, ha="center", transform=axes.transAxes)  # fmt: skip
+    note = f"residuals {1.0 / scale:.0f} times" if scale > 0.0 else ""
+    axes.text(0.5, 0.0, note, fontsize=FONT - 1.5, color=TEXT, ha="center",
+              transform=axes.transAxes)  # fmt: skip
 
 
 def shape_outline(axis: "TowerAxis", turn: "Floats") -> "Floats":

@@ -44,7 +44,7 @@ TITLES = (
 )
 HEADINGS = (
     "z, m", "x, m", "y, m", "deviation, mm", "azimuth, °", "radius, m", "ovality, %", "seen, °",
-    "points", "residual, mm", "σ, mm", "flag",
+    "points", "residual, mm", "sigma, mm", "flag",
 )  # fmt: skip
 TEMPLATE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
@@ -69,7 +69,7 @@ thead {{ display: table-header-group; }}
 <table class="levels"><thead><tr>{head}</tr></thead><tbody>
 {body}
 </tbody></table>
-<p>σ is the standard deviation of one coordinate of the centre, from what the cloud tells about
+<p>Sigma is the standard deviation of one coordinate of the centre, from what the cloud tells about
 itself{outer}. Azimuths are clockwise from y (north). Made by midrib {version}.</p>
 </body></html>
 """
@@ -141,7 +141,7 @@ def write_report(
 
 def summary_lines(
     axis: "TowerAxis", tolerance: "Tolerance | None" = None, source: str = ""
-) -> list[tuple[str, str]]:
+) -> list[tuple[str, ...]]:
     """Return what there is to say about the axis as a whole, as pairs of name and text."""
     s, unit = axis.summary, axis.unit
     mm, m = 1e3 / unit, 1.0 / unit
@@ -154,9 +154,19 @@ def summary_lines(
         ("levels", f"{len(axis.levels)}, {flagged} flagged, {missing} of these without a centre"),
         ("heights", f"{s.low * m:.2f} m to {s.high * m:.2f} m"),
         ("best line", f"leans by {s.slope:.2f} mm/m towards {s.azimuth:.1f}°"),
-        ("straightness", f"{s.straightness * mm:.1f} mm off the best line at {s.straightness_z * m:.1f} m"),
-        ("largest deviation", f"{s.deviation * mm:.1f} mm at {s.deviation_z * m:.1f} m; top {s.top_deviation * mm:.1f} mm"),
-        ("σ of the centre", f"{np.nanmedian(axis.levels['sigma']) * mm:.2f} mm (median of the levels)"),
+        (
+            "straightness",
+            f"{s.straightness * mm:.1f} mm off the best line at {s.straightness_z * m:.1f} m",
+        ),
+        (
+            "largest deviation",
+            f"{s.deviation * mm:.1f} mm at {s.deviation_z * m:.1f} m; "
+            f"top {s.top_deviation * mm:.1f} mm",
+        ),
+        (
+            "sigma of the centre",
+            f"{np.nanmedian(axis.levels['sigma']) * mm:.2f} mm (median of the levels)",
+        ),
     ]
     kinks = [f"{k.z * m:.0f} m ({k.turn:.1f} mm/m towards {k.azimuth:.0f}°)" for k in axis.kinks]
     lines.append(("kinks", ", ".join(kinks) or "none found"))
@@ -176,7 +186,9 @@ def exceeding(axis: "TowerAxis", tolerance: "Tolerance") -> str:
         may = f", {int(close.sum())} may be by their 95 % interval" * bool(close.any())
         return f"{tolerance.text}: no level is beyond it{may}"
     z = levels["z"][over] / axis.unit
-    return f"{tolerance.text}: {int(over.sum())} levels are beyond it, {z[0]:.1f} m to {z[-1]:.1f} m"
+    return (
+        f"{tolerance.text}: {int(over.sum())} levels are beyond it, {z[0]:.1f} m to {z[-1]:.1f} m"
+    )
 
 
 def rows_of_levels(axis: "TowerAxis") -> list[tuple[str, ...]]:
@@ -239,7 +251,7 @@ def write_pdf(content: Content, path: Path) -> None:
 
     axis = content.axis
     left = (A4[0] - WIDTH) / 2.0
-    axis_height, shell_height, sections_height = HEIGHTS
+    _, shell_height, sections_height = HEIGHTS
     rows = rows_of_levels(axis)
     with PdfPages(path, metadata={"CreationDate": None, "Title": content.title}) as pages:
         first = sheet_of(*A4)
@@ -257,9 +269,9 @@ def write_pdf(content: Content, path: Path) -> None:
             pages.savefig(sheet.figure)
 
 
-def write_text(sheet: Sheet, x: float, y: float, text: str, **style: Any) -> None:
+def write_text(sheet: Sheet, x: float, y: float, text: str, **chosen: Any) -> None:
     """Write at a place in millimetres from the lower left corner."""
-    style = {"fontsize": FONT, "color": TEXT, "va": "top"} | style
+    style: dict[str, Any] = {"fontsize": FONT, "color": TEXT, "va": "top"} | chosen
     sheet.figure.text(x / A4[0], y / A4[1], text, **style)
 
 
@@ -293,8 +305,12 @@ def table_sheet(rows: list[tuple[str, ...]]) -> Sheet:
         level = top - ROW * (i + (i > 0)) - (i > 0)
         colour = FLAGGED if i and row[-1] else TEXT
         for right, text in zip(rights, row[:-1], strict=False):
-            write_text(sheet, float(right), level, text, ha="right", fontsize=FONT - 1.0, color=colour)
-        write_text(sheet, float(rights[-1]) + 3.0, level, row[-1], fontsize=FONT - 1.0, color=colour)
+            write_text(
+                sheet, float(right), level, text, ha="right", fontsize=FONT - 1.0, color=colour
+            )
+        write_text(
+            sheet, float(rights[-1]) + 3.0, level, row[-1], fontsize=FONT - 1.0, color=colour
+        )
     y = (top - 2.0 * ROW + 0.2) / A4[1]
     line = Line2D([MARGIN / A4[0], 1.0 - MARGIN / A4[0]], [y, y], color=TEXT, lw=0.5)
     sheet.figure.add_artist(line)

@@ -8,7 +8,7 @@ Ladders, platforms and mixed pixels lie beside the window; what remains is the m
 the mean of what is near it, which has less noise and is exact where there is none.
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -45,7 +45,8 @@ class Reference(NamedTuple):
     def at(self, s: "Floats") -> "Floats":
         """Rows of the table (n, 5) at heights, straight between them, as the kernel has them."""
         grid = self.start + self.step * np.arange(len(self.table))
-        return np.column_stack([np.interp(s, grid, column) for column in self.table.T])
+        columns = [np.interp(s, grid, column) for column in self.table.T]
+        return np.column_stack(columns).astype(np.float64, copy=False)
 
 
 class Grid(NamedTuple):
@@ -60,7 +61,8 @@ class Grid(NamedTuple):
     @property
     def middles(self) -> "Floats":
         """Heights of the levels' middles."""
-        return self.start + self.level * (np.arange(self.n_levels) + 0.5)
+        heights = self.start + self.level * (np.arange(self.n_levels) + 0.5)
+        return heights.astype(np.float64, copy=False)
 
 
 class Cells(NamedTuple):
@@ -71,25 +73,33 @@ class Cells(NamedTuple):
     s: "Floats"  # mean height of the points
     azimuth: "Floats"  # their mean azimuth
     d: "Floats"  # beyond the reference shell
-    count: "Floats"  # points that were averaged
+    n: "Floats"  # points that were averaged
     spread: "Floats"  # standard deviation of them
     reference: Reference
     grid: Grid
 
     def where(self, rows: "Bools") -> "Cells":
-        """Some of the cells."""
-        return Cells(*(column[rows] for column in self[:7]), self.reference, self.grid)
+        """Return some of the cells."""
+        level, sector, s, azimuth, d, n, spread = (column[rows] for column in self.columns)
+        return Cells(level, sector, s, azimuth, d, n, spread, self.reference, self.grid)
+
+    @property
+    def columns(self) -> "tuple[Any, ...]":
+        """Everything with a row for each cell."""
+        return self.level, self.sector, self.s, self.azimuth, self.d, self.n, self.spread
 
 
 def reference_of(rough: Rough, unit: float, low: float, high: float) -> Reference:
-    """Reference shell of a rough axis from one height to another, straight on at its ends."""
+    """Return the shell of a rough axis between two heights, straight on at its ends."""
     step = STEP * unit
     s = np.arange(low - step, high + 2.0 * step, step)
     table = rough.table
     columns = [extended(s, table[:, 0], table[:, k]) for k in (1, 2, 3)]
     columns[2] = np.maximum(columns[2], 1e-6 * table[:, 3].max())
     slopes = [np.gradient(columns[k], step) for k in (0, 1)]
-    return Reference(rough.frame, float(s[0]), step, np.column_stack([*columns, *slopes]), rough.faces)
+    return Reference(
+        rough.frame, float(s[0]), step, np.column_stack([*columns, *slopes]), rough.faces
+    )
 
 
 def extended(s: "Floats", at: "Floats", values: "Floats") -> "Floats":
@@ -99,7 +109,8 @@ def extended(s: "Floats", at: "Floats", values: "Floats") -> "Floats":
     first = (values[n] - values[0]) / (at[n] - at[0])
     last = (values[-1] - values[-1 - n]) / (at[-1] - at[-1 - n])
     inside = inside + np.minimum(s - at[0], 0.0) * first
-    return inside + np.maximum(s - at[-1], 0.0) * last
+    beyond: Floats = inside + np.maximum(s - at[-1], 0.0) * last
+    return beyond
 
 
 def grid_for(low: float, high: float, n_points: float, unit: float) -> Grid:
@@ -118,7 +129,9 @@ def grid_for(low: float, high: float, n_points: float, unit: float) -> Grid:
 def rounded_down(length: float) -> float:
     """Largest of 1, 2 and 5 times a power of ten that is not above a length."""
     power = 10.0 ** np.floor(np.log10(length))
-    return float(max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9)))
+    return float(
+        max(step * power for step in (1.0, 2.0, 5.0) if step * power <= length * (1 + 1e-9))
+    )
 
 
 def scale_of(rough_radius: float, unit: float) -> float:
@@ -140,8 +153,9 @@ def cells_of(
     reach, width = (factor * value for value in (FINE if fine else COARSE))
     n_bins = round(2.0 * reach / width) + 1  # an odd number: the shell is in the middle of a bin
     shape = (grid.n_levels, grid.n_sectors)
-    counts = np.zeros((*shape, n_bins), dtype=np.float32)
-    sums = np.zeros_like(counts)
+    # Half the memory of doubles: the cube is what takes room. Counts are exact up to 2^24.
+    counts: Any = np.zeros((*shape, n_bins), dtype=np.float32)
+    sums: Any = np.zeros_like(counts)
     moments = np.zeros((*shape, MOMENTS))
     low = -0.5 * n_bins * width
     numbers = [reference.start, reference.step, grid.start, grid.level, low, width]
@@ -205,7 +219,8 @@ def densest(counts: "Floats", window: int) -> "Ints":
     last = held.shape[1] - 1 - np.argmax(best[:, ::-1], axis=1)
     middle = (first + last) // 2
     is_best: Bools = best[np.arange(len(best)), middle]
-    return np.where(is_best, middle, first)
+    chosen: Ints = np.where(is_best, middle, first)
+    return chosen
 
 
 def middle_of(counts: "Floats", low: float, width: float) -> "tuple[Floats, Floats]":

@@ -1,6 +1,5 @@
 """A cloud: points in chunks, so that its size does not matter."""
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -9,6 +8,8 @@ from midrib.checks import shown
 from midrib.errors import GeometryTypeError, ParameterError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from midrib.types import Floats
 
 __all__ = ["CHUNK", "ArrayCloud", "Cloud", "sample_of"]

@@ -83,8 +83,8 @@ def best_turn(sharpness: "Floats", angles: "Floats", count: int) -> float | None
     period = np.pi / count if count % 2 else 2.0 * np.pi / count
     cells = max(1, round(period / np.radians(STEP)))
     phase = np.round((angles % period) / np.radians(STEP)).astype(np.intp) % cells
-    folded = np.bincount(phase, weights=sharpness, minlength=cells)
-    folded /= np.maximum(np.bincount(phase, minlength=cells), 1)
+    counts = np.maximum(np.bincount(phase, minlength=cells), 1)
+    folded = np.bincount(phase, weights=sharpness, minlength=cells) / counts
     best = int(np.argmax(folded))
     if folded[best] < AT_RANDOM * np.median(sharpness):
         return None

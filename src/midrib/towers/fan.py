@@ -131,12 +131,12 @@ def centres_of(s: "Floats", directions: "Floats", means: "Floats", unit: float) 
             why[i] = f"{rows.size} planes, expected {LEAST_PLANES}"
             continue
         design, known = directions[rows], means[rows, i]
-        weight = np.ones(rows.size)
+        weight, every = np.ones(rows.size), np.ones(rows.size, dtype=np.bool_)
         for _ in range(8):
             normal = (design * weight[:, None]).T @ design
             answer = np.linalg.solve(normal + 1e-12 * np.eye(2), design.T @ (weight * known))
             residual = known - design @ answer
-            weight = np.maximum(tukey(residual, residual == residual, unit), 1e-6)
+            weight = np.maximum(tukey(residual, every, unit), 1e-6)
         free = max(float(weight.sum()) - 2.0, 1.0)
         noise = float((weight * residual**2).sum()) / free
         xy[i] = answer
@@ -145,7 +145,7 @@ def centres_of(s: "Floats", directions: "Floats", means: "Floats", unit: float) 
 
 
 def calm(sigma: "Floats") -> "Floats":
-    """Standard deviations, each averaged with its neighbours: few planes tell little by themselves."""
+    """Average each standard deviation with its neighbours: few planes tell little alone."""
     square = sigma**2
     out = sigma.copy()
     for i in range(len(sigma)):

@@ -57,7 +57,12 @@ def bands_of(cells: "Cells", residual: "Floats", weight: "Floats", unit: float) 
         numbers.append(b)
         noise.append(np.std(residual[inside] - design @ answer) * np.sqrt(2.0 / inside.sum()))
     harmonics = np.array(rows).reshape(-1, ORDERS.size)
-    return Bands(np.array(numbers), harmonics, rise * cells.grid.level, float(np.mean([*noise, 0.0][: max(1, len(noise))])))
+    return Bands(
+        np.array(numbers),
+        harmonics,
+        rise * cells.grid.level,
+        float(np.mean([*noise, 0.0][: max(1, len(noise))])),
+    )
 
 
 def shape_of(bands: Bands, faces: "Floats", radius: float, unit: float) -> tuple[Shape, "Floats"]:

@@ -90,7 +90,9 @@ class Fit:
         """Slopes of x and y (n, 2) at heights."""
         n = self.model.axis.size
         design = self.model.axis.design(s, 1)
-        return np.column_stack([design @ self.coefficients[:n], design @ self.coefficients[n : 2 * n]])
+        return np.column_stack(
+            [design @ self.coefficients[:n], design @ self.coefficients[n : 2 * n]]
+        )
 
     def oval(self, s: "Floats") -> "Floats":
         """Coefficients e and f (n, 2) at heights; zero if the model is round."""
@@ -150,9 +152,10 @@ def fit_cells(
     design, known = design_of(cells, model)
     block = blocks_of(cells, unit)
     _, off_corner = normals_of(cells)
-    prior = off_corner * 1.0
+    prior = off_corner.astype(np.float64)
     stiffness = (USUAL[0] * unit**3, USUAL[1] * unit**3)
-    weight, residual, together = prior, known, 1.0
+    weight: Floats = prior
+    residual: Floats = known
     coefficients = np.zeros(design.shape[1])
     for round_ in range(ROUNDS):
         if round_ in CHOOSING and not rough:
@@ -172,7 +175,7 @@ def fit_cells(
 
 def product(left: "Any", weight: "Floats", right: "Any") -> "Floats":
     """Weighted product of two sparse designs, dense."""
-    dense: Floats = (left.T @ right.multiply(weight[:, None]).tocsr()).toarray()
+    dense: Floats = np.asarray((left.T @ right.multiply(weight[:, None]).tocsr()).toarray())
     return dense
 
 
@@ -197,7 +200,8 @@ def solved(normal: "Floats", right: "Floats") -> "Floats":
     scale = 1.0 / np.sqrt(np.maximum(diagonal, 1e-12 * diagonal.max()))
     scaled = normal * np.outer(scale, scale) + RIDGE * np.eye(len(normal))
     answer: Floats = cho_solve(cho_factor(scaled), (right.T * scale).T)
-    return (answer.T * scale).T
+    unscaled: Floats = (answer.T * scale).T
+    return unscaled
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
@@ -265,7 +269,9 @@ def covariance_of(
         meat += np.outer(pull, pull)
     free = max(float((weight > 0.0).sum() - np.trace(inverse @ normal)), 1.0)
     noise = float((weight * residual**2).sum()) / free
-    together = float(np.trace(meat @ inverse)) / max(noise * float(np.trace(normal @ inverse)), 1e-300)
+    together = float(np.trace(meat @ inverse)) / max(
+        noise * float(np.trace(normal @ inverse)), 1e-300
+    )
     share = noise * max(together, 1.0)
     covariance: Floats = inverse @ (meat + share * penalty) @ inverse
     return covariance
@@ -277,4 +283,5 @@ def blocks_of(cells: "Cells", unit: float) -> "Ints":
     wide = max(1, cells.grid.n_sectors // BLOCK_SECTORS)
     key = cells.level // rise * cells.grid.n_sectors + cells.sector // wide
     _, block = np.unique(key, return_inverse=True)
-    return block.astype(np.intp)
+    numbers: Ints = block.astype(np.intp)
+    return numbers

@@ -83,7 +83,11 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
 def joint_centres(shell: "Shell", s: "Floats") -> "tuple[Floats, Floats, Any]":
     """Centres, standard deviations and no reasons of the joint fit."""
     variance = shell.fit.covariances(s)[:, [0, 1], [0, 1]]
-    return shell.fit.values(s)[:, :2], np.sqrt(np.maximum(variance, 0.0)), np.full(s.size, "", "U96")
+    return (
+        shell.fit.values(s)[:, :2],
+        np.sqrt(np.maximum(variance, 0.0)),
+        np.full(s.size, "", "U96"),
+    )
 
 
 def at_heights(centres: Centres, s: "Floats") -> "tuple[Floats, Floats, Any]":
@@ -109,7 +113,7 @@ def heights_of(
 
 
 def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
-    """What is seen of the shell around heights."""
+    """Look what is seen of the shell around heights."""
     cells, fit = shell.cells, shell.fit
     used = fit.weight > 0.0
     width = 360.0 / cells.grid.n_sectors
@@ -121,7 +125,7 @@ def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
         own[i] = np.unique(cells.sector[here]).size * width
         around = used & (off <= NEAR * unit)
         near[i] = np.unique(cells.sector[around]).size * width
-        n[i] = cells.count[here].sum()
+        n[i] = cells.n[here].sum()
         residual[i] = np.sqrt(np.mean(fit.residual[here] ** 2)) if here.any() else np.nan
     return Seen(own, near, n, residual)
 

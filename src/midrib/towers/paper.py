@@ -1,11 +1,12 @@
 """The paper's way: two planes through the axis, walls thinned to curves, curves of minimal radii.
 
 X, Y              planes through the axis along x and y; of a tower with faces across two of them
-main, auxiliary   walls of a section: the first one on the side that the plane's direction comes from
+main, auxiliary   walls of a section: the first where the direction comes from, the other ahead
 from_main         curve of minimal radii with the first wall as main curve; from_auxiliary the other
 mean_curve        their mean in equal shares of length; same_height at equal heights
 
-Where walls taper by the angle α, a curve from one wall is off the axis by r sin² α towards it.
+Where walls taper by an angle, a curve from one wall is off the axis by r times the squared sine of
+it, towards that wall.
 """
 
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -17,7 +18,7 @@ from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError
 from midrib.strip import Strip
 from midrib.towers.levels import Centres
-from midrib.towers.thinning import Thinning, thinned_wall
+from midrib.towers.thinning import thinned_wall
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -60,8 +61,12 @@ def paper(
     walls = collected(track(cloud.chunks(), "sections"), shell, directions, half, unit)
     planes = []
     for direction, points in zip(directions, walls, strict=True):
-        main = thinned_wall(points[points[:, 0] < 0.0], options.thinning, INTERVAL * unit, RADIUS * unit)
-        other = thinned_wall(points[points[:, 0] > 0.0], options.thinning, INTERVAL * unit, RADIUS * unit)
+        main = thinned_wall(
+            points[points[:, 0] < 0.0], options.thinning, INTERVAL * unit, RADIUS * unit
+        )
+        other = thinned_wall(
+            points[points[:, 0] > 0.0], options.thinning, INTERVAL * unit, RADIUS * unit
+        )
         found = steps_of_walls(main, other, INTERVAL * unit, direction, points)
         if found is not None:
             planes.append(found)
@@ -86,7 +91,7 @@ def half_slab(shell: "Shell", unit: float) -> float:
     cells = shell.cells
     radius = float(np.median(cells.reference.table[:, 2]))
     area = 2.0 * np.pi * radius / cells.grid.n_sectors * cells.grid.level
-    density = float(np.median(cells.count)) / area
+    density = float(np.median(cells.n)) / area
     needed = WANTED / density / (INTERVAL * unit) / 2.0
     return float(min(max(HALF_SLAB * unit, needed), MOST_HALF_SLAB * unit, 0.2 * radius))
 

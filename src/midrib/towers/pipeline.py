@@ -21,6 +21,7 @@ from midrib.towers.joint import Fit, fit_cells
 from midrib.towers.levels import levels_of
 from midrib.towers.records import Shape, TowerAxis
 from midrib.towers.rough import Rough, Search, rough_round
+from midrib.towers.thinning import Thinning
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -52,7 +53,7 @@ class Options:
     registration: float = 0.0
     levelling: float = 0.0  # mm per m
     planes: int = 18
-    thinning: str = "moving-least-squares"
+    thinning: Thinning = "moving-least-squares"
 
     def check(self) -> None:
         """Refuse values that an option cannot have.
@@ -136,7 +137,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         shape=shell.shape,
         unit=options.unit,
         crs=cloud.crs,
-        count=int(shell.cells.count.sum()),
+        count=int(shell.cells.n.sum()),
         cells=shell.cells,
         residual=fit.residual,
         used=fit.weight > 0.0,
@@ -226,8 +227,8 @@ def on_shell(rough: Rough, sample: "Floats", unit: float) -> int:
 
 
 def refined(reference: Reference, fit: Fit) -> Reference:
-    """Reference shell of a fit."""
-    s = reference.start + reference.step * np.arange(len(reference.table))
+    """Return the shell of a fit to measure from."""
+    s = reference.start + reference.step * np.arange(len(reference.table), dtype=np.float64)
     values = fit.values(s)
     values[:, 2] = np.maximum(values[:, 2], 0.1 * np.median(values[:, 2]))
     return reference._replace(table=np.column_stack([values, fit.slopes(s)]))
@@ -236,7 +237,9 @@ def refined(reference: Reference, fit: Fit) -> Reference:
 def gated(cells: Cells, fit: Fit, unit: float) -> Shell:
     """Look at the shape of the sections; an oval is fitted anew with its own terms."""
     bands = bands_of(cells, fit.residual, fit.weight, unit)
-    shape, dents = shape_of(bands, cells.reference.faces, float(np.median(cells.reference.table[:, 2])), unit)
+    shape, dents = shape_of(
+        bands, cells.reference.faces, float(np.median(cells.reference.table[:, 2])), unit
+    )
     if shape.name == "oval":
         fit = fit_cells(cells, unit, is_oval=True)
     low = cells.grid.start + dents * bands.height

@@ -92,7 +92,11 @@ class TowerAxis:
     @cached_property
     def line(self) -> LineString:
         """The axis, a LineString Z through the levels that have a centre."""
-        return LineString(self.points) if len(self.points) > 1 else shapely.from_wkt("LINESTRING Z EMPTY")
+        return (
+            LineString(self.points)
+            if len(self.points) > 1
+            else shapely.from_wkt("LINESTRING Z EMPTY")
+        )
 
     @cached_property
     def summary(self) -> Summary:

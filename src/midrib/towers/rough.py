@@ -173,7 +173,7 @@ def rough_round(sample: "Floats", search: Search) -> Rough:
 
 
 def stacked(points: "Floats", search: Search) -> "tuple[Floats, Floats, float]":
-    """Circles (m, 4) of s, x, y, radius that stand one above the other; their direction; how far off points are."""
+    """Stack circles (m, 4) of s, x, y, radius; also their direction and how far off points are."""
     random = np.random.default_rng(2)
     slabs = slabs_of(points, search.unit)
     rows = [
@@ -247,7 +247,9 @@ def smoothed(circles: "Floats", unit: float) -> "tuple[Floats, Floats]":
     fit, straight = values, np.zeros((2, 3))
     for _ in range(10):
         normal = design.T @ (weight[:, None] * design) + penalty
-        coefficients = np.linalg.solve(normal + 1e-12 * np.eye(basis.size), design.T @ (weight[:, None] * values))
+        coefficients = np.linalg.solve(
+            normal + 1e-12 * np.eye(basis.size), design.T @ (weight[:, None] * values)
+        )
         fit = design @ coefficients
         straight = np.linalg.lstsq(
             np.sqrt(weight)[:, None] * line, np.sqrt(weight)[:, None] * values, rcond=None

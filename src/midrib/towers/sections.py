@@ -159,7 +159,7 @@ def vector(value: object, name: str) -> "Floats":
 
 
 def direction(value: object, name: str) -> "Floats":
-    """Unit vector; refuses one without a length."""
+    """Return a unit vector; refuse one without a length."""
     found = vector(value, name)
     length = float(np.linalg.norm(found))
     if length < 1e-9:

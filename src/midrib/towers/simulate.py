@@ -101,7 +101,8 @@ class Scan:
     def axis(self, z: "Floats | list[float]") -> "Floats":
         """Points (n, 2) of the true axis at heights of the scan's coordinates."""
         z = np.asarray(z, dtype=np.float64)
-        return self.tower.axis(z - self.origin[2]) + np.array(self.origin[:2])
+        centres: Floats = self.tower.axis(z - self.origin[2]) + np.array(self.origin[:2])
+        return centres
 
     def points(self) -> "Floats":
         """All points (n, 3) at once."""
@@ -115,7 +116,7 @@ class Scan:
                 yield self.part(station, first, min(size, int(count) - first))
 
     def part(self, station: int, first: int, count: int) -> "Floats":
-        """Some points of one station."""
+        """Return some points of one station."""
         random = np.random.default_rng([self.seed, station, first])
         kinds = random.multinomial(count, self.shares)
         stand = self.stand(station)
@@ -123,7 +124,8 @@ class Scan:
         found = [maker(random, int(k), stand) for maker, k in zip(makers, kinds, strict=False)]
         found.append(self.strays(random, int(kinds[-1])))
         points = self.misplaced(random.permutation(np.concatenate(found)), station, stand)
-        return points + np.array(self.origin)
+        moved: Floats = points + np.array(self.origin)
+        return moved
 
     @property
     def shares(self) -> "Floats":
@@ -161,7 +163,9 @@ class Scan:
             noise = np.interp(s[chosen], [0.0, self.tower.height], self.noise)
             shift = noise * random.normal(size=chosen.size)
             if any(self.noise):
-                mixed = (cosine[chosen] < MIXED_COSINE) & (random.uniform(size=shift.size) < MIXED_SHARE)
+                mixed = (cosine[chosen] < MIXED_COSINE) & (
+                    random.uniform(size=shift.size) < MIXED_SHARE
+                )
                 shift[mixed] -= random.exponential(MIXED_DEPTH, mixed.sum())
             kept.append(points[chosen] + (shift / away[chosen])[:, None] * beam[chosen])
             missing -= chosen.size
@@ -218,7 +222,8 @@ class Scan:
     def clutter_antennas(self, random: np.random.Generator, count: int, _: "Floats") -> "Floats":
         """Points of rods near the top."""
         s = self.tower.height * random.uniform(0.9, 1.03, count)
-        theta = 2.0 * np.pi * random.integers(0, max(self.antennas, 1), count) / 3.0 + 0.4
+        rod = random.integers(0, max(self.antennas, 1), count).astype(np.float64)
+        theta = 2.0 * np.pi * rod / max(self.antennas, 1) + 0.4
         return self.tower.points(s, theta, 0.3 + random.normal(0.0, 0.02, count))
 
     def strays(self, random: np.random.Generator, count: int) -> "Floats":
@@ -233,4 +238,6 @@ class Scan:
         shift = random.normal(0.0, 1.0, 3) * self.registration
         tilt = random.normal(0.0, 1.0, 2) * self.levelling * 1e-3
         level = points[:, 2:] - stand[2]
-        return points + shift + np.column_stack([level * tilt, -(points - stand)[:, :2] @ tilt])
+        turned = np.column_stack([level * tilt, -(points - stand)[:, :2] @ tilt])
+        moved: Floats = points + shift + turned
+        return moved

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from midrib.types import Floats
+    from midrib.types import Bools, Floats
 
 __all__ = ["Kink", "Summary", "azimuth_of", "kinks_of", "summary_of"]
 
@@ -71,7 +71,7 @@ def summary_of(levels: Any, unit: float) -> Summary:
 
 
 def kinks_of(levels: Any, unit: float) -> list[Kink]:
-    """Changes of direction that are certain."""
+    """Find changes of direction that are certain."""
     z, reach = levels["z"], REACH * unit
     if len(levels) < 7 or np.ptp(z) < 2.0 * reach:
         return []
@@ -82,16 +82,18 @@ def kinks_of(levels: Any, unit: float) -> list[Kink]:
             rows.append((at, *turn_at(levels, at, below, above)))
     found = np.array(rows).reshape(-1, 4)
     size = np.hypot(found[:, 1], found[:, 2])
-    kinks = []
+    kinks: list[Kink] = []
     for i in np.argsort(-size):
         sure = size[i] > max(CERTAIN * found[i, 3], LEAST_KINK * 1e-3)
         if sure and all(abs(found[i, 0] - kink.z) >= reach for kink in kinks):
             azimuth = float(azimuth_of(found[i, 1], found[i, 2]))
-            kinks.append(Kink(float(found[i, 0]), 1e3 * float(size[i]), azimuth, 1e3 * float(found[i, 3])))
+            kinks.append(
+                Kink(float(found[i, 0]), 1e3 * float(size[i]), azimuth, 1e3 * float(found[i, 3]))
+            )
     return sorted(kinks)
 
 
-def turn_at(levels: Any, at: float, below: "Floats", above: "Floats") -> tuple[float, float, float]:
+def turn_at(levels: Any, at: float, below: "Bools", above: "Bools") -> tuple[float, float, float]:
     """Change of slope of x and y at a height, and its standard deviation.
 
     Two straight lines that meet there are fitted; levels that are neighbours are not independent,

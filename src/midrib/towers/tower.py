@@ -71,7 +71,7 @@ class Tower:
     faces: int = 0
     twist: float = 0.0
     form_error: float = 0.0
-    form_length: float = 0.2
+    form_length: float = 0.1
     seed: int = 0
 
     def __post_init__(self) -> None:

@@ -1,6 +1,5 @@
 """Point clouds: files to chunks of coordinates, by the ending of their names."""
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,8 @@ from midrib.formats.clouds.ply import PlyCloud
 from midrib.formats.clouds.text import TextCloud
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from midrib.towers.cloud import Cloud
 
 __all__ = ["ENDINGS", "open_cloud"]

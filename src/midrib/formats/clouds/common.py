@@ -18,11 +18,12 @@ def refusing(path: Path, *errors: type[Exception]) -> Iterator[None]:
     ParameterError
         If one of them, or an error of the system, comes up.
     """
+    kinds: tuple[type[Exception], ...] = (OSError, EOFError, *errors)
     try:
         yield
     except MidribError:
         raise
-    except (OSError, EOFError, *errors) as error:
+    except kinds as error:
         reason = " ".join(str(error).split()) or type(error).__name__
         msg = f"CLOUD {str(path)!r} cannot be read: {reason}"
         raise ParameterError(msg) from error

@@ -33,7 +33,11 @@ class LasCloud:
         import laspy
 
         self.path, self.name = path, f"CLOUD {str(path)!r}"
-        self.errors: tuple[type[Exception], ...] = (laspy.errors.LaspyException, ValueError, RuntimeError)
+        self.errors: tuple[type[Exception], ...] = (
+            laspy.errors.LaspyException,
+            ValueError,
+            RuntimeError,
+        )
         with refusing(path, *self.errors), laspy.open(path) as reader:
             header = reader.header
             self.count = int(header.point_count)
@@ -54,7 +58,7 @@ class LasCloud:
 
 
 def reference_of(header: Any) -> tuple[str | None, float | None]:
-    """Reference system and length of a unit in metres, as far as records of a header tell."""
+    """Return the reference system and its unit in metres, as far as a header tells."""
     for record in [*header.vlrs, *(header.evlrs or [])]:
         if record.record_id == WKT_RECORD:
             text = record.string if isinstance(record.string, str) else record.string.decode()

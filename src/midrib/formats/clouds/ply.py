@@ -28,7 +28,7 @@ class Header(NamedTuple):
     """What the header says about vertices."""
 
     form: str
-    count: int
+    n_vertices: int
     fields: list[tuple[str, str]]
     size: int  # bytes
 
@@ -43,7 +43,7 @@ class PlyCloud:
         self.path, self.name = path, f"CLOUD {str(path)!r}"
         with refusing(path, ValueError, UnicodeDecodeError):
             self.header = header_of(path)
-        self.count = self.header.count
+        self.count = self.header.n_vertices
         missing = {"x", "y", "z"} - {name for name, _ in self.header.fields}
         if missing:
             msg = f"{self.name} has no property {min(missing)}, expected x, y and z of vertices"
@@ -62,8 +62,10 @@ class PlyCloud:
                 else:
                     order = ORDERS[self.header.form]
                     record = np.dtype([(name, order + kind) for name, kind in self.header.fields])
-                    rows = np.frombuffer(file.read(count * record.itemsize), dtype=record)
-                    points = np.column_stack([rows[c].astype(np.float64) for c in "xyz"])
+                    block = file.read(count * record.itemsize)
+                    block = block[: len(block) // record.itemsize * record.itemsize]
+                    found = np.frombuffer(block, dtype=record)
+                    points = np.column_stack([found[c].astype(np.float64) for c in "xyz"])
                 if len(points) < count:
                     msg = f"it ends after {first + len(points)} of {self.count} points"
                     raise ValueError(msg)
