@@ -36,6 +36,7 @@ quality: $(VENV)/ready
 	$(BIN)/python benchmarks/scoreboard.py
 	$(BIN)/python benchmarks/ribbons.py
 	$(BIN)/python benchmarks/hatching.py
+	$(BIN)/python benchmarks/towers.py
 
 dev: $(VENV)/ready
 	$(BIN)/pre-commit install

@@ -49,7 +49,7 @@ def test_registration_and_levelling_are_added_to_the_uncertainty() -> None:
     assert levels["sigma"] == pytest.approx(np.hypot(0.002, 1e-4 * height), rel=1e-3)
 
 
-@pytest.mark.parametrize("azimuths", [(10.0,), (0.0, 60.0)])
+@pytest.mark.parametrize("azimuths", [(10.0,), (0.0, 30.0)])
 def test_one_side_is_answered_by_the_joint_mode_only(azimuths: tuple[float, ...]) -> None:
     scan = dirty(ROUGH, azimuths=azimuths)
     joint, fan = tower_axis(scan.points()), tower_axis(scan.points(), "fan")
@@ -95,7 +95,7 @@ def test_lobes_are_flagged_at_every_level() -> None:
 
 
 def test_a_second_tower_is_left_alone() -> None:
-    other = CONE.points() + [12.0, 0.0, 0.0]
+    other = CONE.points() + np.array([12.0, 0.0, 0.0])
     both = np.concatenate([CONE.points(), other[::2]])
     axis = tower_axis(both, near=(12.0, 0.0))
     assert axis.points[0, 0] == pytest.approx(12.0, abs=0.01)

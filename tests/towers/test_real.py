@@ -44,7 +44,9 @@ def test_control_points_do_not_count() -> None:
     near = np.hypot(points[:, 0] - 37.34, points[:, 1] - 25.70) < 7.8
     one, other = tower_axis(points, step=1.0), tower_axis(points[near], step=1.0)
     z, i, j = np.intersect1d(one.levels["z"], other.levels["z"], return_indices=True)
-    off = np.hypot(one.levels["x"][i] - other.levels["x"][j], one.levels["y"][i] - other.levels["y"][j])
+    off = np.hypot(
+        one.levels["x"][i] - other.levels["x"][j], one.levels["y"][i] - other.levels["y"][j]
+    )
     assert z.size >= 10
     assert np.nanmax(off) < 0.003
     assert np.nanmedian(one.levels["radius"]) == pytest.approx(7.585, abs=0.005)

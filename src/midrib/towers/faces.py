@@ -24,7 +24,7 @@ NEAR = 0.03  # metres: as far off a face as its points may be
 BINS = 160  # across a slab
 LEAST_SHARE = 0.25  # of what a face seen in full would have
 AT_RANDOM = 2.0  # crowds of a face over those of a direction at random
-ROUNDS = 8
+LEAST_NEAR = 0.3  # of the points of slabs: as many are near the faces
 
 
 class Crowds(NamedTuple):
@@ -163,7 +163,7 @@ def standing(
     at = (points[:, 2] - middle) / half
     way = points[:, :2] - (line[:2] + at[:, None] * line[3:5])
     radius = np.abs(line[2] + at * line[5])
-    off = off_shell((way @ normals.T).max(axis=1) - radius, radius)
+    off = off_shell((way @ normals.T).max(axis=1) - radius, radius, LEAST_NEAR)
     foot = frame.outwards(np.array([[x[0], y[0], z[0]]]))[0]
     rise = np.array([x[1] - x[0], y[1] - y[0], z[1] - z[0]])
     along = frame_along(foot, rise)

@@ -28,11 +28,17 @@ __all__ = ["Fit", "fit_cells", "normals_of"]
 
 KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
 TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
+GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
-BLOCK, BLOCK_SECTORS = 2.5, 12  # metres and number: cells of a block may err together
+BLOCKS = (
+    (2.5, 12),
+    (5.0, 8),
+    (10.0, 6),
+)  # metres, number around: cells of a block may err together
 AXIS_STIFFNESS = 10.0 ** np.arange(0.0, 7.1, 0.5)
 TAPER_STIFFNESS = 10.0 ** np.arange(3.0, 9.1, 1.0)
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
+PLIANT = (3e1, 1e5)  # what such a fit leaves is error, not the tower's own bends
 RIDGE = 1e-10
 
 
@@ -150,16 +156,21 @@ def fit_cells(
         basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
     )
     design, known = design_of(cells, model)
-    block = blocks_of(cells, unit)
+    blocks = [blocks_of(cells, rise * unit, around) for rise, around in BLOCKS]
     _, off_corner = normals_of(cells)
-    prior = off_corner.astype(np.float64)
+    prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
     stiffness = (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
     coefficients = np.zeros(design.shape[1])
     for round_ in range(ROUNDS):
         if round_ in CHOOSING and not rough:
-            together = joined(weight * residual, block)
+            pliant = model.penalty(PLIANT[0] * unit**3, PLIANT[1] * unit**3)
+            normal = product(design, weight, design) + pliant
+            left = known - design @ solved(normal, design.T @ (weight * known))
+            together = max(joined(weight * left, block) for block in blocks[:2])
+            # A pliant fit keeps half of its freedom: what it leaves may be its own misfit.
+            together = min(together, max(1.0, float(weight.sum()) / (2.0 * len(normal))))
             stiffness = best_stiffness(design, known, weight, model, stiffness, together, unit**3)
         normal = product(design, weight, design) + model.penalty(*stiffness)
         coefficients = solved(normal, design.T @ (weight * known))
@@ -169,8 +180,33 @@ def fit_cells(
             break
     covariance = np.zeros((0, 0))
     if not rough:
-        covariance = covariance_of(design, weight, residual, block, model.penalty(*stiffness))
+        penalty = model.penalty(*stiffness)
+        found = [covariance_of(design, weight, residual, block, penalty) for block in blocks]
+        # Blocks that are smaller than what errs together tell too little; small and many ones are
+        # surer. The largest is on the safe side.
+        covariance = max(found, key=lambda c: float(np.trace(c[: model.ends[1], : model.ends[1]])))
     return Fit(model, coefficients, covariance, weight, residual, stiffness)
+
+
+def grazed(cells: "Cells", unit: float) -> "Bools":
+    """Which cells lie where beams graze the shell: next to a part that is not seen.
+
+    There a beam is half on the shell and half behind it, and its points lie a few millimetres in.
+    """
+    grid = cells.grid
+    seen = np.zeros((grid.n_levels, grid.n_sectors), dtype=np.bool_)
+    seen[cells.level, cells.sector] = True
+    rise = max(1, round(GAP_HEIGHT * unit / grid.level))
+    bands = np.add.reduceat(seen, np.arange(0, grid.n_levels, rise), axis=0) > 0
+    wide = max(1, round(GAP / 360.0 * grid.n_sectors))
+    hidden = np.all([np.roll(~bands, k, axis=1) for k in range(wide)], axis=0)
+    hidden = np.any([np.roll(hidden, -k, axis=1) for k in range(wide)], axis=0)
+    margin = max(1, round(GRAZED / 360.0 * grid.n_sectors))
+    near = np.any([np.roll(hidden, k, axis=1) for k in range(-margin, margin + 1)], axis=0)
+    # What has hidden parts everywhere is a net of few points, not a shell seen from one side.
+    near &= ~near.all(axis=1)[:, None]
+    found: Bools = near[cells.level // rise, cells.sector]
+    return found
 
 
 def product(left: "Any", weight: "Floats", right: "Any") -> "Floats":
@@ -277,10 +313,10 @@ def covariance_of(
     return covariance
 
 
-def blocks_of(cells: "Cells", unit: float) -> "Ints":
-    """Block of each cell, numbered from 0."""
-    rise = max(1, round(BLOCK * unit / cells.grid.level))
-    wide = max(1, cells.grid.n_sectors // BLOCK_SECTORS)
+def blocks_of(cells: "Cells", height: float, around: int) -> "Ints":
+    """Block of each cell, numbered from 0: so high, and so many around the tower."""
+    rise = max(1, round(height / cells.grid.level))
+    wide = max(1, cells.grid.n_sectors // around)
     key = cells.level // rise * cells.grid.n_sectors + cells.sector // wide
     _, block = np.unique(key, return_inverse=True)
     numbers: Ints = block.astype(np.intp)

@@ -23,6 +23,7 @@ ARC = 40.0  # degrees of a level that are not enough for a centre
 NEAR = 2.5  # metres above and below: what is seen there counts for a level
 UNCERTAIN = 0.005  # metres: largest half interval of 95 % that goes without a flag
 ROUGH, LEAST_ROUGH = 4.0, 5e-4  # times the usual residual; metres
+FLOOR = 3e-5  # metres: what thinning to cells leaves of clutter, whatever the noise
 NORMAL = 1.96
 NO_DATA = "no data"
 
@@ -68,7 +69,9 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     oval = np.hypot(*fit.oval(s).T)
     is_told = shell.shape.name in {"round", "oval"}
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
-    outer = options.registration**2 + (1e-3 * options.levelling * (z - z[0])) ** 2
+    outer = (
+        (FLOOR * unit) ** 2 + options.registration**2 + (1e-3 * options.levelling * (z - z[0])) ** 2
+    )
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     flags = flags_of(shell, s, seen, levels, why, unit)

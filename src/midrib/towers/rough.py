@@ -23,6 +23,7 @@ NEAR, NEAR_SHARE = 0.04, 0.1  # of a circle: metres, and share of its radius
 LEAST_IN_SLAB = 8
 LEAST_RADIUS = 0.02  # metres
 LINE_TRIES = 2000
+LEAST_NEAR = 0.03  # of the points of its slabs are near a round tower at the least: trees
 BESIDE = 0.3  # of the radius: points farther off the shell have nothing to do with it
 BEND_STIFFNESS = 3e-3  # of the rough axis: an S-bend passes, the scatter of single slabs does not
 
@@ -194,14 +195,14 @@ def stacked(points: "Floats", search: Search) -> "tuple[Floats, Floats, float]":
     smooth, line = smoothed(circles, search.unit)
     near = np.concatenate([slab for z, slab in slabs if (circles[:, 0] == z).any()])
     x, y, r = (np.interp(near[:, 2], smooth[:, 0], smooth[:, k]) for k in (1, 2, 3))
-    off = off_shell(np.hypot(near[:, 0] - x, near[:, 1] - y) - r, r)
+    off = off_shell(np.hypot(near[:, 0] - x, near[:, 1] - y) - r, r, LEAST_NEAR)
     return smooth, np.array([line[0], line[1], 1.0]), off
 
 
-def off_shell(beyond: "Floats", radius: "Floats") -> float:
-    """Median distance from a shell of what is near it; infinite if hardly anything is."""
+def off_shell(beyond: "Floats", radius: "Floats", least: float) -> float:
+    """Median distance from a shell of what is near it; infinite if less than a share is."""
     near = np.abs(beyond) < BESIDE * radius
-    if near.sum() < LEAST_IN_SLAB:
+    if near.sum() < max(LEAST_IN_SLAB, least * near.size):
         return np.inf
     return float(np.median(np.abs(beyond[near])))
 

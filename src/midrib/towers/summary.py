@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 if TYPE_CHECKING:
-    from midrib.types import Bools, Floats
+    from midrib.types import Bools
 
 __all__ = ["Kink", "Summary", "azimuth_of", "kinks_of", "summary_of"]
 

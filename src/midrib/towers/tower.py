@@ -158,7 +158,8 @@ class Tower:
         u, v = row - i, column - j
         low = field[i, j] * (1.0 - v) + field[i, j + 1] * v
         high = field[i + 1, j] * (1.0 - v) + field[i + 1, j + 1] * v
-        return low * (1.0 - u) + high * u
+        error: Floats = low * (1.0 - u) + high * u
+        return error
 
     def frames(self, s: "Floats") -> "tuple[Floats, Floats, Floats]":
         """Axis points (n, 3) and two directions (n, 3) that span the section there."""
