@@ -98,7 +98,9 @@ def main() -> None:
         levels = midrib.tower_axis(points, mode).levels
         known = levels[np.isfinite(levels["x"])]
         off = np.column_stack([known["x"], known["y"]]) - scan.axis(known["z"])
-        print(f"{mode}: {1e3 * np.sqrt(np.mean((off**2).sum(axis=1))):.1f} mm RMS off the true axis")
+        print(
+            f"{mode}: {1e3 * np.sqrt(np.mean((off**2).sum(axis=1))):.1f} mm RMS off the true axis"
+        )
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert "no level is beyond it" in page
     assert "leans by 2.50 mm/m" in outcome.out
     table = csv.read_csv(places[1])
-    assert page.count("<tr") == table.num_rows + 1 + outcome.out.count("\n")
+    assert page.count("<tr") == table.num_rows + 2 + outcome.out.count("\n")
     expected = CONE.axis(np.array(table["z"]))
     assert np.array(table["x"]) == pytest.approx(expected[:, 0], abs=1e-6)
     lines = list(ezdxf.readfile(places[2]).modelspace())

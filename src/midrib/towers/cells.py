@@ -191,7 +191,10 @@ def thinned(
     counts = counts[level, sector].astype(np.float64)
     sums = sums[level, sector].astype(np.float64)
     if not level.size:
-        msg = f"no part of the shell has {grid.enough} points, expected a denser cloud"
+        msg = (
+            f"no tower was found: no part of the best shell has {grid.enough} points; near= and "
+            "radius= say where it is and how thick"
+        )
         raise ParameterError(msg)
     first = densest(counts, window)
     columns = np.arange(counts.shape[1])

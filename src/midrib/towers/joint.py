@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 __all__ = ["Fit", "fit_cells", "normals_of"]
 
 KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
+# Metres: less than that is never clutter, but bends that a clean scan shows and splines miss.
+LEAST_SPREAD = 3e-4
 TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
 GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
@@ -223,7 +225,7 @@ def joined(errors: "Floats", block: "Ints") -> float:
 
 def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
     """Weights by the size of residuals."""
-    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), 1e-7 * unit)
+    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
     weight: Floats = np.clip(1.0 - (residual / (TUKEY * spread)) ** 2, 0.0, 1.0) ** 2
     return weight
 
