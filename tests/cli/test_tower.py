@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-import ezdxf
 import numpy as np
 import pytest
 import shapely
+from ezdxf.filemanagement import readfile
 from pyarrow import csv
 
 from midrib.formats.reading import layer_names
@@ -39,10 +39,10 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert page.count("<tr") == table.num_rows + 2 + outcome.out.count("\n")
     expected = CONE.axis(np.array(table["z"]))
     assert np.array(table["x"]) == pytest.approx(expected[:, 0], abs=1e-6)
-    lines = list(ezdxf.readfile(places[2]).modelspace())
+    lines = list(readfile(places[2]).modelspace())
     assert len(lines) == 1
     assert set(layer_names(places[3])) == {"axis", "levels"}
-    points, attributes = read_all(places[4])
+    _, attributes, points = read_all(places[4])
     assert len(points) == table.num_rows
     assert shapely.get_z(points).tolist() == attributes["z"].to_pylist()
     assert not [path for path in tmp_path.iterdir() if path not in places]

@@ -1,5 +1,7 @@
 """The cube of counts against NumPy, point by point."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -16,7 +18,8 @@ def counted(points: Floats, faces: Floats) -> tuple[int, Floats, Floats, Floats]
     s = np.arange(-1.0, 12.0, 0.5)
     table = np.column_stack([0.1 + 0.0 * s, -0.2 + 0.0 * s, 2.0 - 0.1 * s, 0.0 * s, 0.0 * s])
     grid = np.array([-1.0, 0.5, 0.0, 1.0, -0.5 * BINS * 0.01, 0.01])
-    counts, sums = np.zeros((2, LEVELS, SECTORS, BINS), dtype=np.float32)
+    cube: Any = np.zeros((2, LEVELS, SECTORS, BINS), dtype=np.float32)
+    counts, sums = cube
     moments = np.zeros((LEVELS, SECTORS, MOMENTS))
     origin, turn = np.array([5.0, 6.0, 7.0]), np.eye(3)
     total = count_points(points, origin, turn, table, faces, grid, counts, sums, moments)
@@ -55,7 +58,8 @@ def test_foot_is_perpendicular_to_a_leaning_axis() -> None:
     ring = np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * [0.0, 1.0, 0.0]
     points = at[:, None] * [slope, 0.0, 1.0] + radius * ring
     grid = np.array([-1.0, 0.5, 0.0, 1.0, -0.5 * BINS * 1e-6, 1e-6])
-    counts, sums = np.zeros((2, LEVELS, SECTORS, BINS), dtype=np.float32)
+    cube: Any = np.zeros((2, LEVELS, SECTORS, BINS), dtype=np.float32)
+    counts, sums = cube
     moments = np.zeros((LEVELS, SECTORS, MOMENTS))
     count_points(points, np.zeros(3), np.eye(3), table, NO_FACES, grid, counts, sums, moments)
     assert counts[..., BINS // 2].sum() == 500

@@ -7,7 +7,7 @@ Faces show in a slab as directions along which many points have the same offset,
 of the tower is seen; so they are found before the centre is.
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,19 +21,9 @@ __all__ = ["rough_polygon"]
 COUNTS = (3, 4, 5, 6, 8, 10, 12)  # of faces that are looked for
 STEP = 0.5  # degrees between the directions that are tried
 NEAR = 0.03  # metres: as far off a face as its points may be
-BINS = 160  # across a slab
 LEAST_SHARE = 0.25  # of what a face seen in full would have
 AT_RANDOM = 2.0  # crowds of a face over those of a direction at random
 LEAST_NEAR = 0.3  # of the points of slabs: as many are near the faces
-
-
-class Crowds(NamedTuple):
-    """Faces of one slab."""
-
-    z: float
-    points: "Floats"
-    offsets: "Floats"  # (k,) of each face, NaN where it is not seen
-    counts: "Floats"  # (k,)
 
 
 def rough_polygon(sample: "Floats", search: Search) -> Rough | None:
@@ -95,14 +85,13 @@ def fitted(
     frame: Frame, slabs: "list[tuple[float, Floats]]", normals: "Floats", unit: float
 ) -> Rough | None:
     """Rough axis with given normals, of the frame; None if too few faces are seen."""
-    crowds = [crowds_of(z, points, normals, unit) for z, points in slabs]
     rows = [
-        (c.z, j, c.offsets[j], c.counts[j])
-        for c in crowds
-        for j in range(len(normals))
-        if np.isfinite(c.offsets[j])
+        (z, j, offset)
+        for z, points in slabs
+        for j, offset in enumerate(crowds_of(points, normals, unit))
+        if np.isfinite(offset)
     ]
-    seen = np.array(rows).reshape(-1, 4)
+    seen = np.array(rows).reshape(-1, 3)
     usual = np.bincount(seen[:, 1].astype(np.intp), minlength=len(normals)) >= 0.3 * len(slabs)
     if usual.sum() < 3:
         return None
@@ -123,26 +112,25 @@ def fitted(
     return standing(frame, slabs, normals, line, (middle, half))
 
 
-def crowds_of(z: float, points: "Floats", normals: "Floats", unit: float) -> Crowds:
-    """Where the points of a slab crowd along each normal, on the outer half."""
+def crowds_of(points: "Floats", normals: "Floats", unit: float) -> "Floats":
+    """Offsets (k,) at which the points of a slab crowd along each normal, NaN without a crowd."""
     xy = points[:, :2]
     centre = np.median(xy, axis=0)
-    offsets, counts = np.full(len(normals), np.nan), np.zeros(len(normals))
-    # A tower seen from one side has its median near that side; a third of the way beyond it
+    offsets = np.full(len(normals), np.nan)
+    least = LEAST_SHARE * len(xy) / len(normals)
+    # A tower seen from one side has its median near that side; a tenth of the way beyond it
     # still tells the outer face from the inner one.
     for j, n in enumerate(normals):
         along = (xy - centre) @ n
         outer = np.sort(along[along > -0.1 * np.ptp(np.percentile(along, [3, 97]))])
-        if outer.size < LEAST_SHARE * len(xy) / len(normals):
+        if outer.size < least:
             continue
         last = np.searchsorted(outer, outer + 2.0 * NEAR * unit, side="right")
         crowd = last - np.arange(outer.size)
         best = int(np.argmax(crowd))
-        if crowd[best] < LEAST_SHARE * len(xy) / len(normals):
-            continue
-        offsets[j] = np.median(outer[best : last[best]]) + centre @ n
-        counts[j] = crowd[best]
-    return Crowds(z, points, offsets, counts)
+        if crowd[best] >= least:
+            offsets[j] = np.median(outer[best : last[best]]) + centre @ n
+    return offsets
 
 
 def standing(

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from midrib.towers.blocks import blocks_of, covariance_of, joined, product, solved
 from midrib.towers.splines import Basis, basis_on
 
 if TYPE_CHECKING:
@@ -41,7 +42,6 @@ AXIS_STIFFNESS = 10.0 ** np.arange(0.0, 7.1, 0.5)
 TAPER_STIFFNESS = 10.0 ** np.arange(3.0, 9.1, 1.0)
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
 PLIANT = (3e1, 1e5)  # what such a fit leaves is error, not the tower's own bends
-RIDGE = 1e-10
 
 
 class Model(NamedTuple):
@@ -211,35 +211,11 @@ def grazed(cells: "Cells", unit: float) -> "Bools":
     return found
 
 
-def product(left: "Any", weight: "Floats", right: "Any") -> "Floats":
-    """Weighted product of two sparse designs, dense."""
-    dense: Floats = np.asarray((left.T @ right.multiply(weight[:, None]).tocsr()).toarray())
-    return dense
-
-
-def joined(errors: "Floats", block: "Ints") -> float:
-    """How many cells count as one, as they err together in blocks; at least 1."""
-    sums = np.bincount(block, weights=errors)
-    return max(1.0, float((sums**2).sum() / max((errors**2).sum(), 1e-300)))
-
-
 def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
     """Weights by the size of residuals."""
     spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
     weight: Floats = np.clip(1.0 - (residual / (TUKEY * spread)) ** 2, 0.0, 1.0) ** 2
     return weight
-
-
-def solved(normal: "Floats", right: "Floats") -> "Floats":
-    """Solve normal equations, with the least of a ridge against unknowns that nothing tells."""
-    from scipy.linalg import cho_factor, cho_solve
-
-    diagonal = np.diag(normal)
-    scale = 1.0 / np.sqrt(np.maximum(diagonal, 1e-12 * diagonal.max()))
-    scaled = normal * np.outer(scale, scale) + RIDGE * np.eye(len(normal))
-    answer: Floats = cho_solve(cho_factor(scaled), (right.T * scale).T)
-    unscaled: Floats = (answer.T * scale).T
-    return unscaled
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
@@ -288,38 +264,3 @@ def best_stiffness(
     taper = min(TAPER_STIFFNESS * cube, key=lambda t: score(axis, t))
     axis = min(AXIS_STIFFNESS * cube, key=lambda a: score(a, taper))
     return float(axis), float(taper)
-
-
-def covariance_of(
-    design: "Any", weight: "Floats", residual: "Floats", block: "Ints", penalty: "Floats"
-) -> "Floats":
-    """Covariance of the coefficients: jackknife over blocks, and what the penalty hides."""
-    normal = product(design, weight, design)
-    inverse = solved(normal + penalty, np.eye(len(normal)))
-    order = np.argsort(block, kind="stable")
-    starts = np.flatnonzero(np.diff(block[order], prepend=-1))
-    meat = np.zeros_like(normal)
-    for rows in np.split(order, starts[1:]):
-        root = np.sqrt(weight[rows])
-        part = design[rows].toarray() * root[:, None]
-        told = np.eye(len(rows)) - part @ inverse @ part.T
-        pull = part.T @ np.linalg.solve(told + 1e-3 * np.eye(len(rows)), root * residual[rows])
-        meat += np.outer(pull, pull)
-    free = max(float((weight > 0.0).sum() - np.trace(inverse @ normal)), 1.0)
-    noise = float((weight * residual**2).sum()) / free
-    together = float(np.trace(meat @ inverse)) / max(
-        noise * float(np.trace(normal @ inverse)), 1e-300
-    )
-    share = noise * max(together, 1.0)
-    covariance: Floats = inverse @ (meat + share * penalty) @ inverse
-    return covariance
-
-
-def blocks_of(cells: "Cells", height: float, around: int) -> "Ints":
-    """Block of each cell, numbered from 0: so high, and so many around the tower."""
-    rise = max(1, round(height / cells.grid.level))
-    wide = max(1, cells.grid.n_sectors // around)
-    key = cells.level // rise * cells.grid.n_sectors + cells.sector // wide
-    _, block = np.unique(key, return_inverse=True)
-    numbers: Ints = block.astype(np.intp)
-    return numbers
