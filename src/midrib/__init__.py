@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standards import Standard, standard, standards
     from midrib.profiles import Profile, add_widths, profile
+    from midrib.scans import tower_axis
     from midrib.strip import Strip, split
 
 __version__ = "0.1.0"
@@ -64,6 +65,7 @@ __all__ = [
     "split",
     "standard",
     "standards",
+    "tower_axis",
     "write_drawing",
 ]
 
@@ -102,6 +104,7 @@ HOME = {
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",
+    "tower_axis": "midrib.scans",
     "write_drawing": "midrib.formats.drawing.write",
 }
 

@@ -51,11 +51,12 @@ COMMANDS = {
 }
 OTHERS = {"compare", "label", "network", "partial", "points"}  # have tests of their own
 OF_SLOPES = {"hatch"}  # commands that take slopes: see test_hatch.py
+OF_POINTS = {"tower"}  # commands that take clouds: see test_tower.py
 
 
 def test_the_table_has_every_command() -> None:
     names = {command.name or command.callback.__name__ for command in app.registered_commands}  # type: ignore[union-attr]
-    assert names == set(COMMANDS) | OF_SLOPES | OTHERS
+    assert names == set(COMMANDS) | OF_SLOPES | OF_POINTS | OTHERS
 
 
 @pytest.mark.parametrize("ending", ["gpkg", "parquet", "geojson"])

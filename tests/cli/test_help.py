@@ -24,6 +24,7 @@ NAMES = (
     "points",
     "profile",
     "standards",
+    "tower",
 )
 PAGES: dict[str, list[str]] = {"midrib": []} | {name: [name] for name in NAMES}
 HEAVY = ("numpy", "shapely", "numba", "pyogrio", "pyarrow", "matplotlib")

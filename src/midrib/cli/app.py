@@ -15,6 +15,7 @@ from midrib.cli.partial import partial
 from midrib.cli.points import points
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
+from midrib.cli.tower import tower
 
 __all__ = ["app"]
 
@@ -120,6 +121,16 @@ app.command(
     "midrib hatch bgt.gml map.pdf --standard de-general --scale 1000 --paper A3\n\n"
     "midrib hatch slopes.gpkg map.dxf --top crest:slope_id --symbol wedge",
 )(hatch)
+app.command(
+    help="Find the axis of a tower or chimney in a laser scan, with its uncertainty by level.\n\n"
+    "Levels: z, x, y, radius, deviation from the vertical through the base and its azimuth (from "
+    "y, clockwise), ovality, degrees of the shell that are seen, points, residual, standard "
+    "deviation of the centre, flag. Lengths are in units of the coordinates; the report has metres "
+    "and millimetres.\n\n"
+    "Exit code 0: done; 1: some levels are flagged, all is written; 2: wrong usage, or no tower.",
+    epilog="Examples:\n\nmidrib tower scan.laz --report chimney.html -o levels.csv -o axis.dxf\n\n"
+    "midrib tower scan.e57 --report chimney.pdf --registration 2mm --tolerance h/1000",
+)(tower)
 
 
 def show_version(is_asked: bool) -> None:

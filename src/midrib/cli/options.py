@@ -17,6 +17,7 @@ __all__ = [
     "CentringOption",
     "Channel",
     "ChannelOption",
+    "CloudUnit",
     "ComparisonOut",
     "Connect",
     "Count",
@@ -48,6 +49,8 @@ __all__ = [
     "LeastLength",
     "LeastPart",
     "Letter",
+    "LevelStep",
+    "Levelling",
     "LineFigure",
     "LinesOut",
     "Main",
@@ -58,6 +61,7 @@ __all__ = [
     "Method",
     "Methods",
     "NarrowerThan",
+    "Near",
     "Offset",
     "OneFeature",
     "OutLayer",
@@ -67,8 +71,12 @@ __all__ = [
     "Percent",
     "PointCount",
     "PointTolerance",
+    "PointsIn",
     "PointsOut",
     "Quiet",
+    "RadiusRange",
+    "Registration",
+    "ReportTitle",
     "RuleOption",
     "Scale",
     "ShortRatio",
@@ -97,6 +105,13 @@ __all__ = [
     "Tolerance",
     "Top",
     "TopShare",
+    "TowerMode",
+    "TowerModeOption",
+    "TowerOut",
+    "TowerReport",
+    "TowerShape",
+    "TowerShapeOption",
+    "Verticality",
     "Vertices",
     "Width",
     "WidthPlace",
@@ -196,6 +211,22 @@ class DrawingRule(StrEnum):
     paper = "paper"
 
 
+class TowerMode(StrEnum):
+    """Ways to find a tower's axis."""
+
+    joint = "joint"
+    fan = "fan"
+    paper = "paper"
+
+
+class TowerShape(StrEnum):
+    """What a tower's sections are taken for."""
+
+    auto = "auto"
+    round = "round"
+    polygon = "polygon"
+
+
 argument = partial(typer.Argument, show_default=False)
 of_layers = partial(typer.Option, rich_help_panel="Which features")
 of_table = partial(typer.Option, rich_help_panel="What the table holds")
@@ -203,6 +234,7 @@ of_check = partial(typer.Option, rich_help_panel="What is checked")
 of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, lengths in mm on paper")
 of_line = partial(typer.Option, rich_help_panel="How the line is made")
 of_care = partial(typer.Option, rich_help_panel="After-care")
+of_tower = partial(typer.Option, rich_help_panel="How the axis is found")
 of_output = partial(typer.Option, rich_help_panel="Output")
 
 Source: TypeAlias = Annotated[Path, argument(metavar="IN", help="Vector file with areas.")]
@@ -669,4 +701,88 @@ FindingsFigure: TypeAlias = Annotated[
 Overwrite: TypeAlias = Annotated[bool, of_output("--overwrite", metavar="", help="Replace files.")]
 Quiet: TypeAlias = Annotated[
     bool, of_output("--quiet", "-q", metavar="", help="No progress, no summary.")
+]
+
+PointsIn: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="CLOUD", help="Points: .las .laz .e57 .ply .xyz .txt .csv .npy …, x y z with z up."
+    ),
+]
+TowerReport: TypeAlias = Annotated[
+    Path | None,
+    of_output(
+        "--report",
+        metavar="FILE",
+        help="Report with figures and the table of levels: .html, or .pdf for print.",
+    ),
+]
+TowerOut: TypeAlias = Annotated[
+    list[Path] | None,
+    of_output(
+        "--out",
+        "-o",
+        metavar="FILE",
+        help="Levels and axis; the ending chooses the format: .csv for the table of levels, .dxf "
+        "for the axis in space, .gpkg .parquet … for layers. May be given several times.",
+    ),
+]
+TowerModeOption: TypeAlias = Annotated[
+    TowerMode,
+    of_tower(
+        "--mode",
+        help="joint: one spline cone through the whole shell; fan: curves of minimal radii in 18 "
+        "planes through the axis; paper: in two planes.",
+    ),
+]
+TowerShapeOption: TypeAlias = Annotated[
+    TowerShape,
+    of_tower("--shape", help="What sections are taken for; auto looks what explains the points."),
+]
+LevelStep: TypeAlias = Annotated[
+    str | None,
+    of_tower("--step", metavar="LENGTH", help="Distance of levels, 1m; half a metre unless given."),
+]
+Near: TypeAlias = Annotated[
+    str | None,
+    of_tower("--near", metavar="X,Y", help="A place on or beside which the tower stands."),
+]
+RadiusRange: TypeAlias = Annotated[
+    str | None,
+    of_tower("--radius", metavar="MIN,MAX", help="Least and largest radius of the tower: 1m,5m."),
+]
+CloudUnit: TypeAlias = Annotated[
+    str | None,
+    of_tower(
+        "--unit",
+        metavar="UNIT",
+        help="Unit of the coordinates, m ft usft …; what the file says, or metres, unless given.",
+    ),
+]
+Registration: TypeAlias = Annotated[
+    str | None,
+    of_tower(
+        "--registration",
+        metavar="LENGTH",
+        help="Standard deviation of the stations' registration, 2mm: added to the uncertainty.",
+    ),
+]
+Levelling: TypeAlias = Annotated[
+    float,
+    of_tower(
+        "--levelling",
+        metavar="MM_PER_M",
+        help="Standard deviation of the vertical in mm per m: added to the uncertainty.",
+    ),
+]
+Verticality: TypeAlias = Annotated[
+    str | None,
+    of_tower(
+        "--tolerance",
+        metavar="TEXT",
+        help="Allowed deviation: a length (50mm), a share of the height (h/1000), or their sum.",
+    ),
+]
+ReportTitle: TypeAlias = Annotated[
+    str | None, of_output("--title", metavar="TEXT", help="Heading of the report.")
 ]

@@ -10,7 +10,16 @@ from typing import Any, NamedTuple
 
 from midrib.errors import ParameterError
 
-__all__ = ["METRE", "Unit", "is_geographic", "is_same_plane", "is_wgs84", "length_in", "unit_of"]
+__all__ = [
+    "METRE",
+    "METRES",
+    "Unit",
+    "is_geographic",
+    "is_same_plane",
+    "is_wgs84",
+    "length_in",
+    "unit_of",
+]
 
 METRES = {
     "mm": 0.001,

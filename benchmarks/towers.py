@@ -1,0 +1,310 @@
+"""How near axes of towers are to the truth, on simulated scans; circle fits beside them.
+
+python benchmarks/towers.py            table and results, seeds that development did not use
+python benchmarks/towers.py --seeds 1  so many of them
+python benchmarks/towers.py --speed    20 million points from a file: points per second, memory
+"""
+
+import argparse
+import resource
+import sys
+import tempfile
+import time
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from midrib.errors import MidribError
+from midrib.formats.clouds import open_cloud
+from midrib.scans import tower_axis
+from midrib.towers.cloud import ArrayCloud
+from midrib.towers.fan import fan
+from midrib.towers.levels import levels_of
+from midrib.towers.paper import paper
+from midrib.towers.pipeline import Options, Shell, shell_of, untracked
+from midrib.towers.simulate import Scan, Tower
+from tables import ROOT, machine, machine_text, markdown, write_json
+from tower_cases import CASES, Case, circle_fits
+
+Floats = NDArray[np.float64]
+PAGE = ROOT / "docs" / "towers.md"
+RESULTS = ROOT / "benchmarks" / "results" / "towers.json"
+BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
+FIRST_SEED, SEEDS = 2001, 2
+MODES = ("joint", "fan", "paper")
+FAR = 5.0  # mm: no level without a flag may be farther off
+SPEED_COUNT, MILLION = 20_000_000, 1e6
+COMMAND = "python benchmarks/towers.py"
+
+
+class Outcome(NamedTuple):
+    """One way on one scan."""
+
+    case: str
+    seed: int
+    way: str
+    shape: str
+    off: Floats  # mm, NaN where there is no answer
+    is_flagged: NDArray[np.bool_]
+    is_covered: NDArray[np.bool_]  # coordinates within their 95 % intervals
+    refusal: str
+    cpu: float
+
+
+# -- runs ------------------------------------------------------------------------------------------
+
+
+def runs_of(case: Case, seed: int) -> list[Outcome]:
+    """Every mode, and the rival, on one scan."""
+    scan = case.make(seed)
+    points = scan.points()
+    cloud = ArrayCloud(points)
+    began = time.process_time()
+    options = Options(registration=scan.registration)
+    try:
+        shell = shell_of(cloud, options, untracked)
+    except MidribError as error:
+        return [refused(case, seed, way, str(error)) for way in MODES] + [
+            rival(case, seed, scan, points)
+        ]
+    shared = time.process_time() - began
+    found = []
+    for mode in MODES:
+        began = time.process_time()
+        try:
+            levels = levels_in(mode, shell, cloud, options)
+        except MidribError as error:
+            found.append(refused(case, seed, mode, str(error)))
+            continue
+        cpu = shared + time.process_time() - began
+        found.append(outcome(case, seed, mode, scan, shell, levels, cpu))
+    return [*found, rival(case, seed, scan, points)]
+
+
+def levels_in(mode: str, shell: Shell, cloud: ArrayCloud, options: Options) -> Any:
+    """Levels of one mode."""
+    if mode == "fan":
+        return levels_of(shell, options, fan(shell, options)[0])
+    if mode == "paper":
+        return levels_of(shell, options, paper(shell, cloud, options, untracked)[0])
+    return levels_of(shell, options)
+
+
+def outcome(
+    case: Case, seed: int, way: str, scan: Scan, shell: Shell, levels: Any, cpu: float
+) -> Outcome:
+    """Compare levels with the truth."""
+    off = np.column_stack([levels["x"], levels["y"]]) - scan.axis(levels["z"])
+    half = 1.96 * np.column_stack([levels["sigma_x"], levels["sigma_y"]])
+    known = np.isfinite(off)
+    covered = (np.abs(off) <= half)[known]
+    mm = 1e3 * np.hypot(*off.T)
+    return Outcome(
+        case.name, seed, way, shell.shape.name, mm, levels["flag"] != "", covered, "", cpu
+    )
+
+
+def refused(case: Case, seed: int, way: str, why: str) -> Outcome:
+    """Nothing, and the reason."""
+    none = np.zeros(0)
+    return Outcome(
+        case.name, seed, way, "", none, none.astype(np.bool_), none.astype(np.bool_), why, 0.0
+    )
+
+
+def rival(case: Case, seed: int, scan: Scan, points: Floats) -> Outcome:
+    """Fit circles level by level: they flag nothing and know no uncertainty."""
+    heights = np.arange(0.5, scan.tower.height, 0.5)
+    began = time.process_time()
+    centres = circle_fits(scan, points, heights)
+    cpu = time.process_time() - began
+    off = 1e3 * np.hypot(*(centres - scan.axis(heights)).T)
+    flags = np.isnan(off)
+    none = np.zeros(0, dtype=np.bool_)
+    return Outcome(case.name, seed, "circles", "", off, flags, none, "", cpu)
+
+
+# -- tables ----------------------------------------------------------------------------------------
+
+
+def cell(outcomes: list[Outcome]) -> str:
+    """RMS and 95th percentile of one way in one case, all seeds together."""
+    off = np.concatenate([o.off for o in outcomes])
+    known = off[np.isfinite(off)]
+    if not known.size:
+        return "no answer"
+    p95 = np.percentile(known, 95.0)
+    return f"{np.sqrt(np.mean(known**2)):.2f} / {p95:.2f}"
+
+
+def table(outcomes: list[Outcome]) -> str:
+    """RMS and 95th percentile in mm by case and way."""
+    rows = []
+    for case in CASES:
+        of_case = [o for o in outcomes if o.case == case.name]
+        ways = [cell([o for o in of_case if o.way == way]) for way in (*MODES, "circles")]
+        rows.append([case.name, *ways, verdict(case, of_case)])
+    head = ["scan", *MODES, "circles by level", "goal (joint)"]
+    return markdown(head, rows)
+
+
+def verdict(case: Case, outcomes: list[Outcome]) -> str:
+    """Whether the joint mode meets its goal, and by how much not."""
+    if case.goal == 0.0:
+        return "none: stations decide"
+    off = np.concatenate([o.off for o in outcomes if o.way == "joint"])
+    off = off[np.isfinite(off)]
+    if not off.size:
+        return "no answer"
+    rms = float(np.sqrt(np.mean(off**2)))
+    over = rms - case.goal
+    return f"{case.goal:g}: met" if over <= 0.0 else f"{case.goal:g}: missed by {over:.2f}"
+
+
+def honesty(outcomes: list[Outcome]) -> str:
+    """Table of what the joint mode says about itself, by case."""
+    rows = []
+    for case in CASES:
+        some = [o for o in outcomes if o.case == case.name]
+        joint = [o for o in some if o.way == "joint"]
+        covered = np.concatenate([o.is_covered for o in joint])
+        shapes = ", ".join(dict.fromkeys(o.shape or "refused" for o in joint))
+        far = [
+            sum(int((~o.is_flagged & (o.off > FAR)).sum()) for o in some if o.way == way)
+            for way in (*MODES, "circles")
+        ]
+        flagged = np.concatenate([o.is_flagged for o in joint])
+        rows.append(
+            [
+                case.name,
+                shapes,
+                f"{100.0 * covered.mean():.0f} %" if covered.size else "",
+                f"{100.0 * flagged.mean():.0f} %" if flagged.size else "",
+                ", ".join(map(str, far)),
+                f"{np.mean([o.cpu for o in joint]):.0f}",
+            ]
+        )
+    head = ["scan", "sections", "95 % intervals hold", "levels flagged"]
+    head += ["without a flag off by more than 5 mm: " + ", ".join((*MODES, "circles")), "CPU, s"]
+    return markdown(head, rows)
+
+
+def figures(outcomes: list[Outcome], seeds: int, speed: str) -> str:
+    """Part of the page that is generated."""
+    count = CASES[0].make(0).count
+    return (
+        f"Made by `{COMMAND}` on {machine_text()}; {count:,} points a scan, "
+        f"{seeds} scans a row with seeds from {FIRST_SEED} on.\n\n"
+        f"RMS / 95th percentile of the distance to the true axis, mm:\n\n{table(outcomes)}\n"
+        f"What the joint mode says about itself, and levels that are wrong in silence:\n\n"
+        f"{honesty(outcomes)}\n{speed}"
+    )
+
+
+# -- speed -----------------------------------------------------------------------------------------
+
+
+def speed_text(count: int) -> str:
+    """Points per second and memory for one large file of each kind."""
+    rows = [speed_row(ending, count) for ending in ("npy", "las", "laz")]
+    head = ["file", "points", "CPU, s", "million points/s", "most memory, MB"]
+    return f"Speed, from the file to the levels, one process:\n\n{markdown(head, rows)}"
+
+
+def speed_row(ending: str, count: int) -> list[str]:
+    """Write a file, find its axis in a process of its own, tell what that took."""
+    import json
+    import subprocess
+
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"scan.{ending}"
+        write_scan(path, count)
+        done = subprocess.run(
+            [sys.executable, __file__, "--measure", str(path)],
+            capture_output=True,
+            check=True,
+            text=True,
+        )
+    cpu, memory = json.loads(done.stdout.splitlines()[-1])
+    rate = count / cpu / MILLION
+    return [f".{ending}", f"{count:,}", f"{cpu:.1f}", f"{rate:.2f}", f"{memory:.0f}"]
+
+
+def write_scan(path: Path, count: int) -> None:
+    """Write a simulated scan; a million points over and over, moved by less than their noise."""
+    tower = Tower(lean=0.16, bend=0.03, form_error=0.005)
+    scan = Scan(tower, count=min(count, 1_000_000), noise=(0.002, 0.005), outliers=0.01, seed=5)
+    points, random = scan.points(), np.random.default_rng(6)
+    parts = [len(points)] * (count // len(points))
+    moved = (points + random.normal(0.0, 0.001, points.shape) for _ in parts)
+    if path.suffix == ".npy":
+        table = np.lib.format.open_memmap(path, "w+", np.float64, (count, 3))
+        for k, part in enumerate(moved):
+            table[k * len(part) : (k + 1) * len(part)] = part
+        table.flush()
+        return
+    import laspy
+
+    header = laspy.LasHeader(point_format=0, version="1.2")
+    header.scales = np.full(3, 1e-4)
+    with laspy.open(path, "w", header=header) as writer:
+        for part in moved:
+            record = laspy.ScaleAwarePointRecord.zeros(len(part), header=header)
+            record.x, record.y, record.z = part.T
+            writer.write_points(record)
+
+
+def measure(path: Path) -> None:
+    """Find the axis of a file and print CPU seconds and the process's largest memory."""
+    import json
+
+    tower_axis(Scan(count=20_000).points())  # compiled kernels are loaded
+    before = time.process_time()
+    tower_axis(path)
+    cpu = time.process_time() - before
+    open_cloud(path)
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    print(json.dumps([cpu, peak]))
+
+
+def main() -> None:
+    """Measure, print the tables, write page and results."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
+    parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--speed", action="store_true", help="also 20 million points from files")
+    parser.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
+    chosen = parser.parse_args()
+    if chosen.measure:
+        measure(chosen.measure)
+        return
+    outcomes = []
+    for case in CASES:
+        for seed in range(FIRST_SEED, FIRST_SEED + chosen.seeds):
+            outcomes += runs_of(case, seed)
+        print(case.name, file=sys.stderr, flush=True)
+    text = PAGE.read_text(encoding="utf-8")
+    head, _, rest = text.partition(BEGIN)
+    old, _, tail = rest.partition(END)
+    kept = old[old.find("Speed, from") :].rstrip() + "\n" if "Speed, from" in old else ""
+    speed = speed_text(SPEED_COUNT) if chosen.speed else kept
+    made = figures(outcomes, chosen.seeds, speed)
+    PAGE.write_text(f"{head}{BEGIN}\n\n{made}\n{END}{tail}", encoding="utf-8")
+    rows = [
+        {
+            "case": o.case,
+            "seed": o.seed,
+            "way": o.way,
+            "shape": o.shape,
+            "rms": cell([o]),
+            "refusal": o.refusal,
+        }
+        for o in outcomes
+    ]
+    write_json(RESULTS, {"command": COMMAND, "machine": machine(), "runs": rows})
+    print(made)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,155 @@
+"""Where the results of ``midrib tower`` go: report, tables, drawings; and what its options say."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import pyarrow as pa
+import shapely
+
+from midrib.cli.tables import write_rows
+from midrib.errors import ParameterError
+from midrib.figures.tower_report import check_report, write_report
+from midrib.formats.endings import format_of
+from midrib.formats.units import METRES, length_in
+from midrib.formats.writing import Features, check_free, staged, write_layer
+from midrib.towers.pipeline import Options
+
+if TYPE_CHECKING:
+    from midrib.towers.cloud import Cloud
+    from midrib.towers.records import TowerAxis
+    from midrib.towers.tolerance import Tolerance
+
+__all__ = ["Places", "chosen_options", "features_of"]
+
+IN_METRES = '{"coordinate_system": {"axis": [{"unit": "metre"}]}}'
+
+
+class Places(NamedTuple):
+    """The files of one run."""
+
+    source: Path
+    report: Path | None
+    out: tuple[Path, ...]
+
+    @property
+    def all(self) -> list[Path]:
+        """Every file that is written."""
+        return [*([] if self.report is None else [self.report]), *self.out]
+
+    def check(self, *, overwrite: bool) -> None:
+        """Refuse places that cannot be written to, before any work is done.
+
+        Raises
+        ------
+        ParameterError
+            If a place is taken or has an ending that nothing can be written with.
+        """
+        if self.report is not None:
+            check_report(self.report)
+            check_free([self.report], "--report", overwrite=overwrite)
+        for path in self.out:
+            format_of(path)
+        check_free(self.out, "--out", overwrite=overwrite)
+        for path in self.all:
+            if path.exists() and self.source.exists() and path.samefile(self.source):
+                msg = f"{str(path)!r} is CLOUD, expected another file"
+                raise ParameterError(msg)
+
+    def write(
+        self, axis: "TowerAxis", title: str, tolerance: "Tolerance | None", options: Options
+    ) -> list[str]:
+        """Write all files, each whole or not at all; say what a format could not keep."""
+        notes: list[str] = []
+        for path in self.all:
+            with staged(path.parent) as stage:
+                if path == self.report:
+                    write_report(
+                        axis,
+                        stage / path.name,
+                        title=title,
+                        source=self.source.name,
+                        tolerance=tolerance,
+                        outer=outer_text(options),
+                    )
+                else:
+                    notes += write_axis(stage / path.name, axis)
+        return [f"note: {note}" for note in dict.fromkeys(notes)]
+
+
+def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
+    """Write levels and axis: a plain table as CSV, layers of points and a line in other formats."""
+    levels, line = features_of(axis)
+    if path.suffix.lower() == ".csv":
+        return write_rows(path, levels)
+    target = format_of(path)
+    if target.is_drawing or not target.has_layers:
+        return write_layer(path, line if target.is_drawing else levels)
+    return write_layer(path, line) + write_layer(path, levels)
+
+
+def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
+    """Layers ``levels`` (points) and ``axis`` (one line)."""
+    names = axis.levels.dtype.names or ()
+    columns = {name: pa.array(axis.levels[name], from_pandas=True) for name in names}
+    points = np.empty(len(axis.levels), dtype=object)
+    there = axis.is_answered
+    points[there] = shapely.points(axis.points)
+    levels = Features("levels", pa.table(columns), points, "geom", "Point Z", axis.crs)
+    line = np.empty(1, dtype=object)
+    line[0] = axis.line
+    s = axis.summary
+    about = {
+        "mode": pa.array([axis.mode]),
+        "sections": pa.array([axis.shape.text]),
+        **{name: pa.array([getattr(s, name)], from_pandas=True) for name in s._fields},
+    }
+    return levels, Features("axis", pa.table(about), line, "geom", "LineString Z", axis.crs)
+
+
+def chosen_options(
+    cloud: "Cloud", unit: str | None, told: dict[str, Any], **others: Any
+) -> Options:
+    """Options with lengths in coordinate units: those that name a unit are turned into these.
+
+    Raises
+    ------
+    ParameterError
+        If a text is no length, or no pair of lengths.
+    """
+    if unit is not None and unit not in METRES:
+        msg = f"--unit is {unit!r}, expected one of {', '.join(METRES)}"
+        raise ParameterError(msg)
+    metres = (cloud.metres or 1.0) if unit is None else METRES[unit]
+    found: dict[str, Any] = {"unit": 1.0 / metres, **others}
+    for name in ("step", "registration"):
+        if told[name] is not None:
+            found[name] = length_of(told[name], metres, f"--{name}")
+    for name in ("near", "radius"):
+        if told[name] is not None:
+            parts = str(told[name]).split(",")
+            if len(parts) != 2:
+                msg = f"--{name} is {told[name]!r}, expected two numbers: 1.5,3"
+                raise ParameterError(msg)
+            found[name] = tuple(length_of(part, metres, f"--{name}") for part in parts)
+    return Options(**found)
+
+
+def length_of(text: str, metres: float, name: str) -> float:
+    """Length in coordinate units; a number without a unit is one of these."""
+    try:
+        return float(text)
+    except ValueError:
+        return length_in(text, IN_METRES, name) / metres
+
+
+def outer_text(options: Options) -> str:
+    """Say what was added to the uncertainty."""
+    parts = []
+    if options.registration:
+        parts.append(
+            f"registration of the stations, {1e3 * options.registration / options.unit:g} mm"
+        )
+    if options.levelling:
+        parts.append(f"levelling, {options.levelling:g} mm/m")
+    return f", with {' and '.join(parts)}" if parts else ", without registration and levelling"

@@ -1,0 +1,57 @@
+"""The command ``midrib tower``."""
+
+import typer
+
+from midrib.cli import options as cli
+from midrib.cli.options import TowerMode, TowerShape
+
+__all__ = ["tower"]
+
+
+def tower(
+    source: cli.PointsIn,
+    report_file: cli.TowerReport = None,
+    out: cli.TowerOut = None,
+    mode: cli.TowerModeOption = TowerMode.joint,
+    shape: cli.TowerShapeOption = TowerShape.auto,
+    step: cli.LevelStep = None,
+    near: cli.Near = None,
+    radius: cli.RadiusRange = None,
+    unit: cli.CloudUnit = None,
+    registration: cli.Registration = None,
+    levelling: cli.Levelling = 0.0,
+    tolerance: cli.Verticality = None,
+    title: cli.ReportTitle = None,
+    overwrite: cli.Overwrite = False,
+    quiet: cli.Quiet = False,
+) -> None:
+    """Find the axis of a tower or chimney in a laser scan."""
+    from midrib.cli.axes import Places, chosen_options
+    from midrib.cli.report import Report
+    from midrib.cli.shown import show
+    from midrib.figures.tower_report import summary_lines
+    from midrib.formats.clouds import open_cloud
+    from midrib.towers.pipeline import axis_of
+    from midrib.towers.tolerance import tolerance_from
+
+    places = Places(source, report_file, tuple(out or ()))
+    places.check(overwrite=overwrite)
+    allowed = None if tolerance is None else tolerance_from(tolerance)
+    cloud = open_cloud(source)
+    told = {"step": step, "near": near, "radius": radius, "registration": registration}
+    options = chosen_options(
+        cloud, unit, told, mode=mode.value, shape=shape.value, levelling=levelling
+    )
+    report = Report(quiet=quiet)
+    report.start(lambda: None)
+
+    def track(chunks, doing):  # type: ignore[no-untyped-def]
+        return report.track(chunks, cloud.count, len, doing)
+
+    axis = axis_of(cloud, options, track)
+    show(summary_lines(axis, allowed))
+    notes = places.write(axis, title or source.stem, allowed, options)
+    for note in [*notes, *(f"written to {path}" for path in places.all)]:
+        report.say(note)
+    if (axis.levels["flag"] != "").any():
+        raise typer.Exit(1)

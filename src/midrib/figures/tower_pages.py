@@ -1,0 +1,99 @@
+"""Pages of a tower's report: figures on A4, the same for the screen and for print."""
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from midrib.checks import check_library
+from midrib.figures.paper import FONT, INCH, TEXT
+from midrib.figures.tower_plots import (
+    plot_deviation,
+    plot_plan,
+    plot_radius,
+    plot_section,
+    plot_shell,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from midrib.towers.records import TowerAxis
+    from midrib.towers.tolerance import Tolerance
+
+__all__ = ["HEIGHTS", "WIDTH", "Sheet", "draw_axis", "draw_sections", "draw_shell", "sheet_of"]
+
+# Sizes on paper in millimetres.
+WIDTH = 180.0
+AXIS_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT = 195.0, 130.0, 115.0
+SIDE, GUTTER, FOOT, HEAD = 14.0, 16.0, 12.0, 8.0
+N_SECTIONS, SECTION_COLUMNS = 6, 3
+HEIGHTS = AXIS_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT
+
+
+class Sheet(NamedTuple):
+    """A figure, and where on it to draw: millimetres from its lower left corner."""
+
+    figure: "Figure"
+    left: float = 0.0
+    low: float = 0.0
+
+    def place(self, left: float, low: float, width: float, height: float) -> "Axes":
+        """Add axes at a place in millimetres."""
+        across, up = self.figure.get_size_inches() * INCH
+        bounds = (self.left + left) / across, (self.low + low) / up, width / across, height / up
+        return self.figure.add_axes(bounds)
+
+
+def sheet_of(width: float, height: float) -> Sheet:
+    """Return an empty figure of a size in millimetres."""
+    check_library("matplotlib", "a figure", "figures")
+    from matplotlib.figure import Figure
+
+    return Sheet(Figure(figsize=(width / INCH, height / INCH), facecolor="white"))
+
+
+def draw_axis(
+    axis: "TowerAxis", tolerance: "Tolerance | None" = None, sheet: Sheet | None = None
+) -> "Figure":
+    """Draw deviations in x and y by height, the plan of the axis, radius and what is seen."""
+    sheet = sheet or sheet_of(WIDTH, AXIS_HEIGHT)
+    half = (WIDTH - SIDE - GUTTER - 4.0) / 2.0
+    tall = 0.56 * (AXIS_HEIGHT - HEAD - 2.0 * FOOT)
+    short = AXIS_HEIGHT - HEAD - 2.0 * FOOT - tall - 12.0
+    low = AXIS_HEIGHT - HEAD - tall
+    first = sheet.place(SIDE, low, half, tall)
+    plot_deviation(first, axis, "x", tolerance)
+    plot_deviation(sheet.place(SIDE + half + GUTTER, low, half, tall), axis, "y", tolerance)
+    plot_plan(sheet.place(SIDE, FOOT, half, short), axis, tolerance)
+    plot_radius(sheet.place(SIDE + half + GUTTER, FOOT, half, short), axis)
+    handles, names = first.get_legend_handles_labels()
+    first.legend(handles, names, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(names),
+                 frameon=False, fontsize=FONT, labelcolor=TEXT, borderaxespad=0.0)  # fmt: skip
+    return sheet.figure
+
+
+def draw_shell(axis: "TowerAxis", sheet: Sheet | None = None) -> "Figure":
+    """Draw the unrolled shell with the residuals of its cells."""
+    sheet = sheet or sheet_of(WIDTH, SHELL_HEIGHT)
+    tall = SHELL_HEIGHT - FOOT - 4.0
+    image = plot_shell(sheet.place(SIDE, FOOT, WIDTH - SIDE - 26.0, tall), axis)
+    bar = sheet.place(WIDTH - 22.0, FOOT, 4.0, tall)
+    sheet.figure.colorbar(image, cax=bar)
+    bar.tick_params(labelsize=FONT - 0.5, colors=TEXT, length=2.0, width=0.5)
+    bar.set_ylabel("beyond the model, mm; grey: not seen", fontsize=FONT, color=TEXT)
+    return sheet.figure
+
+
+def draw_sections(axis: "TowerAxis", sheet: Sheet | None = None) -> "Figure":
+    """Draw some sections from the base to the top."""
+    sheet = sheet or sheet_of(WIDTH, SECTIONS_HEIGHT)
+    known = np.flatnonzero(axis.is_answered)
+    chosen = known[np.linspace(0, len(known) - 1, min(N_SECTIONS, len(known))).astype(np.intp)]
+    width = WIDTH / SECTION_COLUMNS
+    height = SECTIONS_HEIGHT / -(-N_SECTIONS // SECTION_COLUMNS)
+    for i, index in enumerate(chosen):
+        row, column = divmod(i, SECTION_COLUMNS)
+        low = SECTIONS_HEIGHT - (row + 1) * height
+        plot_section(sheet.place(column * width, low, width, height - 5.0), axis, int(index))
+    return sheet.figure

@@ -1,0 +1,29 @@
+"""What readers of point clouds have in common."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from midrib.errors import MidribError, ParameterError
+
+__all__ = ["refusing"]
+
+
+@contextmanager
+def refusing(path: Path, *errors: type[Exception]) -> Iterator[None]:
+    """Turn errors of a reader into a sentence that names the file.
+
+    Raises
+    ------
+    ParameterError
+        If one of them, or an error of the system, comes up.
+    """
+    kinds: tuple[type[Exception], ...] = (OSError, EOFError, *errors)
+    try:
+        yield
+    except MidribError:
+        raise
+    except kinds as error:
+        reason = " ".join(str(error).split()) or type(error).__name__
+        msg = f"CLOUD {str(path)!r} cannot be read: {reason}"
+        raise ParameterError(msg) from error

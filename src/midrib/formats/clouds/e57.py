@@ -1,0 +1,58 @@
+"""E57: the scans of a file, one after the other, each put where its pose says; metres."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from midrib.checks import check_library
+from midrib.formats.clouds.common import refusing
+from midrib.towers.cloud import CHUNK
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+__all__ = ["E57Cloud"]
+
+FIELDS = ("cartesianX", "cartesianY", "cartesianZ")
+VALID = "cartesianInvalidState"  # 0: the coordinates mean something
+
+
+class E57Cloud:
+    """An E57 file; the standard (ASTM E2807) has metres."""
+
+    metres: float | None = 1.0
+    crs: str | None = None
+
+    def __init__(self, path: Path) -> None:
+        check_library("pye57", "an E57 file", "e57")
+        import pye57
+
+        self.path, self.name = path, f"CLOUD {str(path)!r}"
+        with refusing(path, pye57.libe57.E57Exception, RuntimeError):
+            file = pye57.E57(str(path))
+            self.count = sum(file.get_header(k).point_count for k in range(file.scan_count))
+            file.close()
+
+    def chunks(self) -> Iterator["Floats"]:
+        """Points (n, 3), a chunk at a time; those without a return are left out."""
+        import pye57
+
+        with refusing(self.path, pye57.libe57.E57Exception, RuntimeError):
+            file = pye57.E57(str(self.path))
+            for k in range(file.scan_count):
+                header = file.get_header(k)
+                fields = [name for name in (*FIELDS, VALID) if name in header.point_fields]
+                values, buffers = file.make_buffers(fields, min(CHUNK, header.point_count))
+                turn, shift = np.eye(3), np.zeros(3)
+                if header.has_pose():
+                    turn, shift = header.rotation_matrix, header.translation
+                reader = header.points.reader(buffers)
+                while count := reader.read():
+                    points = np.column_stack([values[name][:count] for name in FIELDS])
+                    if VALID in fields:
+                        points = points[values[VALID][:count] == 0]
+                    yield points @ turn.T + shift
+                reader.close()
+            file.close()

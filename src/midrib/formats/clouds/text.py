@@ -1,0 +1,160 @@
+"""Text: columns of numbers with any delimiter, a heading or none, names of points or none.
+
+Columns x, y, z (or easting, northing, height) go by their names where there is a heading; else
+they are the first three columns of numbers, or the three after a leading column of names.
+"""
+
+import io
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from midrib.errors import ParameterError
+from midrib.formats.clouds.common import refusing
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+__all__ = ["TextCloud"]
+
+NAMES = (
+    {"x", "e", "east", "easting"},
+    {"y", "n", "north", "northing"},
+    {"z", "h", "height", "elevation", "alt", "altitude"},
+)
+PROBED, BLOCK = 60, 1 << 24  # lines looked at, bytes read at a time
+COMMENTS = ("#", "//", "%", ";")
+MANY = 3
+
+
+class Layout(NamedTuple):
+    """How lines are divided, and which parts are x, y, z."""
+
+    skipped: int  # lines before the first point
+    delimiter: str  # "," ";" "\t" or " " for any run of blanks
+    columns: tuple[int, int, int]
+    n_columns: int
+
+
+class TextCloud:
+    """A text file of points; how many there are, only reading tells."""
+
+    metres: float | None = None
+    crs: str | None = None
+    count: int | None = None
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.name = path, f"CLOUD {str(path)!r}"
+        with refusing(path, UnicodeDecodeError), path.open("rb") as file:
+            probe = file.read(1 << 16)
+            lines = probe.decode("utf-8-sig").splitlines()
+        self.layout = layout_of(lines[:PROBED], self.name)
+
+    def chunks(self) -> Iterator["Floats"]:
+        """Points (n, 3), a chunk at a time."""
+        with refusing(self.path, ValueError), self.path.open("rb") as file:
+            for _ in range(self.layout.skipped):
+                file.readline()
+            while block := file.read(BLOCK):
+                yield self.parsed(block + file.readline())
+
+    def parsed(self, block: bytes) -> "Floats":
+        """Points of some whole lines.
+
+        Raises
+        ------
+        ParameterError
+            If a line does not have the numbers.
+        """
+        import pyarrow as pa
+        from pyarrow import csv
+
+        delimiter = self.layout.delimiter
+        if delimiter == " ":
+            block = re.sub(rb"[ \t]+", b" ", re.sub(rb"(?m)^[ \t]+|[ \t\r]+$", b"", block))
+        names = [str(k) for k in range(self.layout.n_columns)]
+        wanted = [names[k] for k in self.layout.columns]
+        parse = csv.ParseOptions(delimiter=delimiter, invalid_row_handler=lambda _: "skip")
+        convert = csv.ConvertOptions(
+            include_columns=wanted, column_types={name: pa.float64() for name in wanted}
+        )
+        read = csv.ReadOptions(column_names=names, block_size=max(len(block), 1 << 16))
+        try:
+            table = csv.read_csv(io.BytesIO(block), read, parse, convert)
+        except pa.ArrowInvalid as error:
+            found = re.search(r"conversion error to double: invalid value '(.*)'", str(error))
+            what = f"has {found[1]!r} for a coordinate" if found else f"cannot be read: {error}"
+            msg = f"{self.name} {what}, expected numbers in columns {wanted_text(self.layout)}"
+            raise ParameterError(msg) from error
+        columns: list[Any] = [table.column(name).to_numpy() for name in wanted]
+        points: Floats = np.column_stack(columns)
+        return points[np.isfinite(points).all(axis=1)]
+
+
+def wanted_text(layout: Layout) -> str:
+    """Columns as people count them."""
+    return ", ".join(str(k + 1) for k in layout.columns)
+
+
+def layout_of(lines: list[str], name: str) -> Layout:
+    """Find delimiter, heading and columns in the first lines.
+
+    Raises
+    ------
+    ParameterError
+        If no line has three numbers.
+    """
+    for skipped, line in enumerate(lines):
+        if not line.strip() or line.lstrip().startswith(COMMENTS):
+            continue
+        delimiter = delimiter_of(line)
+        parts = parts_of(line, delimiter)
+        numbers = [k for k, part in enumerate(parts) if is_number_text(part)]
+        if len(numbers) < MANY:
+            continue
+        heading = heading_of(lines[:skipped], len(parts), delimiter)
+        columns = heading or first_columns(numbers, parts)
+        return Layout(skipped, delimiter, columns, len(parts))
+    msg = f"{name} has no line with three numbers among its first {len(lines)}, expected x, y, z"
+    raise ParameterError(msg)
+
+
+def first_columns(numbers: list[int], parts: list[str]) -> tuple[int, int, int]:
+    """Three columns of numbers; a whole number before numbers with a point is a name."""
+    has_point = ["." in parts[k] or "e" in parts[k].lower() for k in numbers]
+    if len(numbers) > MANY and not has_point[0] and all(has_point[1 : MANY + 1]):
+        numbers = numbers[1:]
+    return numbers[0], numbers[1], numbers[2]
+
+
+def heading_of(before: list[str], count: int, delimiter: str) -> tuple[int, int, int] | None:
+    """Columns by the names in the line before the first point, if it has them."""
+    if not before:
+        return None
+    parts = [part.lower().strip('"') for part in parts_of(before[-1].lstrip("#/% "), delimiter)]
+    if len(parts) != count:
+        return None
+    found = [next((k for k, part in enumerate(parts) if part in some), -1) for some in NAMES]
+    return None if min(found) < 0 else (found[0], found[1], found[2])
+
+
+def delimiter_of(line: str) -> str:
+    """Return what divides a line."""
+    return next((mark for mark in (";", ",", "\t") if line.count(mark) >= 2), " ")
+
+
+def parts_of(line: str, delimiter: str) -> list[str]:
+    """Divide a line."""
+    parts = line.split() if delimiter == " " else line.split(delimiter)
+    return [part.strip() for part in parts]
+
+
+def is_number_text(text: str) -> bool:
+    """Whether a text is a number."""
+    try:
+        return bool(np.isfinite(float(text)))
+    except ValueError:
+        return False

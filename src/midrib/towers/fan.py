@@ -1,0 +1,156 @@
+"""The fan: many planes through the axis, a curve of minimal radii from either wall of each.
+
+u_k       direction of plane k
+wall      chain of points (u, s): where the sectors at u_k and opposite are beyond the axis
+m_k(s)    the mean of plane k's two curves at a height: how far the axis is along u_k
+c(s)      the centre: u_k · c = m_k in the sense of robust least squares
+
+The distances are those of cells, so a wall's curvature across the sector is taken out already.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from shapely import LineString
+
+from midrib.curves.minimal_radii import minimal_radii
+from midrib.errors import InvalidAreaError, ParameterError
+from midrib.strip import Strip
+from midrib.towers.joint import normals_of, tukey
+from midrib.towers.levels import Centres
+
+if TYPE_CHECKING:
+    from midrib.towers.pipeline import Options, Shell
+    from midrib.types import Floats
+
+__all__ = ["fan", "mean_curve"]
+
+LEAST_PLANES = 3
+LEAST_LEVELS = 4  # of a wall
+RUN = 3  # levels of which neighbours err together, more or less
+
+
+def fan(shell: "Shell", options: "Options") -> "tuple[Centres, dict[str, Any]]":
+    """Centres of levels by a fan of planes."""
+    cells, grid = shell.cells, shell.cells.grid
+    depth = depths_of(shell)
+    s = grid.middles
+    directions, means = [], []
+    half = grid.n_sectors // 2
+    faces = cells.reference.faces
+    check_opposite(faces)
+    count = half if len(faces) else min(options.planes, half)  # sectors of one face, or of an arc
+    for group in np.array_split(np.arange(half), count):
+        angle = (group + 0.5) * 2.0 * np.pi / grid.n_sectors
+        toward = np.column_stack([np.cos(angle), np.sin(angle)]).mean(axis=0)
+        if len(faces):
+            toward = faces[np.argmax(faces @ toward)]
+        found = plane_of(s, depth[:, group].mean(axis=1), depth[:, group + half].mean(axis=1))
+        if found is not None:
+            directions.append(toward)
+            means.append(found)
+    steps = {"directions": np.array(directions), "heights": s, "means": np.array(means)}
+    u = steps["directions"].reshape(-1, 2)
+    return centres_of(s, u, steps["means"], options.unit), steps
+
+
+def check_opposite(faces: "Floats") -> None:
+    """Refuse towers whose faces have none opposite.
+
+    Raises
+    ------
+    ParameterError
+        If so.
+    """
+    if len(faces) % 2:
+        msg = f"the tower has {len(faces)} faces, none opposite another: expected mode='joint'"
+        raise ParameterError(msg)
+
+
+def depths_of(shell: "Shell") -> "Floats":
+    """Distance (levels, sectors) of the wall from the frame's axis in each sector's middle.
+
+    NaN where there is no cell. Of a polygon's face, the distance is measured along its normal.
+    """
+    cells, fit = shell.cells, shell.fit
+    grid = cells.grid
+    depth = np.full((grid.n_levels, grid.n_sectors), np.nan)
+    used = fit.weight > 0.0
+    normal, _ = normals_of(cells)
+    # The cell's own mean height and azimuth are near the middle of its level and sector; the
+    # reference shell carries its distance there.
+    middle = cells.reference.at(grid.middles[cells.level])
+    along = (normal * middle[:, :2]).sum(axis=1) + middle[:, 2] + cells.d
+    if not len(cells.reference.faces):
+        angle = (cells.sector + 0.5) * 2.0 * np.pi / grid.n_sectors
+        toward = np.column_stack([np.cos(angle), np.sin(angle)])
+        across = np.column_stack([-toward[:, 1], toward[:, 0]])
+        offset = (across * middle[:, :2]).sum(axis=1)
+        radius = middle[:, 2] + cells.d
+        along = (toward * middle[:, :2]).sum(axis=1) + np.sqrt(
+            np.maximum(radius**2 - offset**2, 0.0)
+        )
+    depth[cells.level[used], cells.sector[used]] = along[used]
+    return depth
+
+
+def plane_of(s: "Floats", near: "Floats", far: "Floats") -> "Floats | None":
+    """Mean of the curves of minimal radii from either wall at heights s; None if a wall is bare."""
+    rows = np.isfinite(near) & np.isfinite(far)
+    if rows.sum() < LEAST_LEVELS:
+        return None
+    right = np.column_stack([near, s])[np.isfinite(near)]
+    left = np.column_stack([-far, s])[np.isfinite(far)]
+    mean = mean_curve(left, right)
+    if mean is None:
+        return None
+    at = np.interp(s, mean[:, 1], mean[:, 0], left=np.nan, right=np.nan)
+    return np.where(rows, at, np.nan)
+
+
+def mean_curve(left: "Floats", right: "Floats") -> "Floats | None":
+    """Same-height mean (n, 2) of the curves of minimal radii from either wall; None if none is."""
+    try:
+        strip = Strip(LineString(left), LineString(right))
+        curve = minimal_radii(
+            strip, ends="caps", end_clearance=None, centring="symmetric", mean=(0.0, 1.0)
+        )
+    except InvalidAreaError:
+        return None
+    line = np.array(curve.line.coords)[:, :2]
+    return line[np.argsort(line[:, 1], kind="stable")]
+
+
+def centres_of(s: "Floats", directions: "Floats", means: "Floats", unit: float) -> Centres:
+    """Centre of each level from the planes that cross it."""
+    xy, sigma = np.full((s.size, 2), np.nan), np.full((s.size, 2), np.nan)
+    why = np.full(s.size, "", dtype="U96")
+    for i in range(s.size):
+        rows = np.flatnonzero(np.isfinite(means[:, i])) if len(means) else np.zeros(0, np.intp)
+        if rows.size < LEAST_PLANES:
+            why[i] = f"{rows.size} planes, expected {LEAST_PLANES}"
+            continue
+        design, known = directions[rows], means[rows, i]
+        weight, every = np.ones(rows.size), np.ones(rows.size, dtype=np.bool_)
+        for _ in range(8):
+            normal = (design * weight[:, None]).T @ design
+            answer = np.linalg.solve(normal + 1e-12 * np.eye(2), design.T @ (weight * known))
+            residual = known - design @ answer
+            weight = np.maximum(tukey(residual, every, unit), 1e-6)
+        free = max(float(weight.sum()) - 2.0, 1.0)
+        noise = float((weight * residual**2).sum()) / free
+        xy[i] = answer
+        sigma[i] = np.sqrt(noise * np.diag(np.linalg.inv(normal + 1e-12 * np.eye(2))))
+    return Centres(s, xy, calm(sigma), why)
+
+
+def calm(sigma: "Floats") -> "Floats":
+    """Average each standard deviation with its neighbours: few planes tell little alone."""
+    square = sigma**2
+    out = sigma.copy()
+    for i in range(len(sigma)):
+        near = square[max(0, i - RUN) : i + RUN + 1]
+        known = near[np.isfinite(near[:, 0])]
+        if len(known) and np.isfinite(sigma[i, 0]):
+            out[i] = np.sqrt(known.mean(axis=0))
+    return out

@@ -1,0 +1,97 @@
+"""The gate: whether sections are what the model takes them for.
+
+band          some metres of the shell
+harmonic k    amplitude of cos kθ and sin kθ in the residuals of a band; 2 is an oval, 3 and 4 lobes
+scatter       how much a harmonic differs from band to band
+
+A circle has none of the harmonics from 2 on. One that is there in all bands alike is the section's
+shape; one that is there in a single band is a dent.
+"""
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from midrib.towers.records import Shape
+from midrib.towers.summary import azimuth_of
+
+if TYPE_CHECKING:
+    from midrib.towers.cells import Cells
+    from midrib.types import Floats
+
+__all__ = ["Bands", "bands_of", "shape_of"]
+
+BAND = 5.0  # metres
+ORDERS = np.arange(2, 9)
+SEEN = 300.0  # degrees of a band that must be seen for its harmonics to be told
+CERTAIN = 3.5  # standard deviations: a harmonic that counts,
+LEAST, LEAST_SHARE = 0.0015, 5e-4  # and is more than this: metres, share of the radius
+DENT, LEAST_DENT = 5.0, 0.008  # standard deviations, metres: one that counts in one band
+SQUARE = 4
+
+
+class Bands(NamedTuple):
+    """Harmonics of bands that are seen all round."""
+
+    band: "Floats"  # (b,) numbers of the bands
+    harmonics: "Floats"  # (b, orders) complex: a - i b of a cos kθ + b sin kθ
+    height: float  # of a band
+    noise: float  # standard deviation that a harmonic of one band has if cells are independent
+
+
+def bands_of(cells: "Cells", residual: "Floats", weight: "Floats", unit: float) -> Bands:
+    """Harmonics of the residuals, band by band; NaN where too little is seen."""
+    rise = max(1, round(BAND * unit / cells.grid.level))
+    band = cells.level // rise
+    rows, numbers, noise = [], [], []
+    for b in np.unique(band):
+        inside = (band == b) & (weight > 0.0)
+        seen = np.unique(cells.sector[inside]).size * 360.0 / cells.grid.n_sectors
+        if seen < SEEN:
+            continue
+        angle = cells.azimuth[inside][:, None] * np.arange(1, ORDERS[-1] + 1)
+        design = np.column_stack([np.ones(inside.sum()), np.cos(angle), np.sin(angle)])
+        answer = np.linalg.lstsq(design, residual[inside], rcond=None)[0]
+        n = ORDERS[-1]
+        rows.append(answer[ORDERS] - 1j * answer[n + ORDERS])
+        numbers.append(b)
+        noise.append(np.std(residual[inside] - design @ answer) * np.sqrt(2.0 / inside.sum()))
+    harmonics = np.array(rows).reshape(-1, ORDERS.size)
+    return Bands(
+        np.array(numbers),
+        harmonics,
+        rise * cells.grid.level,
+        float(np.mean([*noise, 0.0][: max(1, len(noise))])),
+    )
+
+
+def shape_of(bands: Bands, faces: "Floats", radius: float, unit: float) -> tuple[Shape, "Floats"]:
+    """Shape of the sections, and the numbers of bands that have a dent."""
+    if len(faces):
+        azimuth = float(azimuth_of(faces[0, 0], faces[0, 1]))
+        name = "square" if len(faces) == SQUARE else "polygon"
+        return Shape(name, len(faces), azimuth, {}, ""), np.zeros(0)
+    if len(bands.band) < 3:
+        return Shape("unknown", 0, np.nan, {}, ""), np.zeros(0)
+    middle = np.median(bands.harmonics.real, axis=0) + 1j * np.median(bands.harmonics.imag, axis=0)
+    off = bands.harmonics - middle
+    scatter = 1.4826 * np.median(np.abs(off), axis=0) / np.sqrt(2.0) + 1e-9 * unit
+    sigma = 1.2533 * scatter / np.sqrt(len(bands.band))  # of a median
+    sigma = np.hypot(sigma, bands.noise / np.sqrt(len(bands.band)))
+    size = np.abs(middle)
+    counts = size > np.maximum(CERTAIN * sigma, max(LEAST * unit, LEAST_SHARE * radius))
+    found = {int(k): (float(a), float(s)) for k, a, s in zip(ORDERS, size, sigma, strict=True)}
+    dented = (np.abs(off) > np.maximum(DENT * scatter, LEAST_DENT * unit)).any(axis=1)
+    lobes = [int(k) for k in ORDERS[counts] if k > 2]
+    problem = ""
+    if lobes:
+        worst = max(lobes, key=lambda k: found[k][0])
+        amplitude = found[worst][0] / unit
+        problem = f"section not circular: harmonic {worst}, {1e3 * amplitude:.1f} mm"
+    azimuth = float("nan")
+    name = "unknown" if lobes else "round"
+    if counts[0]:
+        turn = -np.angle(middle[0]) / 2.0
+        azimuth = float(azimuth_of(np.cos(turn), np.sin(turn)) % 180.0)
+        name = name if lobes else "oval"
+    return Shape(name, 0, azimuth, found, problem), bands.band[dented]

@@ -1,0 +1,266 @@
+"""The joint model: one spline axis and one spline taper through all cells at once.
+
+x, y, r   splines along the frame's axis; r is stiff
+e, f      oval: cos 2θ and sin 2θ in the radius, stiffer still; only where the section has it
+n         outward normal of the shell in the section: the cell's azimuth, or its face's normal
+
+A cell that is d beyond the reference shell (x₀, y₀, r₀) tells
+
+    d = n · (x - x₀, y - y₀) + (r - r₀) - r r' n · (x - x₀, y - y₀)'  [+ e cos 2θ + f sin 2θ]
+
+The third term is the tapered shell's: its foot moves along the axis when the axis turns.
+Where only a part of the shell is seen, x and r cannot be told apart level by level; the stiff taper
+does it.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from midrib.towers.blocks import blocks_of, covariance_of, joined, product, solved
+from midrib.towers.splines import Basis, basis_on
+
+if TYPE_CHECKING:
+    from midrib.towers.cells import Cells
+    from midrib.types import Bools, Floats, Ints
+
+__all__ = ["Fit", "fit_cells", "normals_of"]
+
+KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
+# Metres: less than that is never clutter, but bends that a clean scan shows and splines miss.
+LEAST_SPREAD = 3e-4
+TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
+GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
+CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
+BLOCKS = (
+    (2.5, 12),
+    (5.0, 8),
+    (10.0, 6),
+)  # metres, number around: cells of a block may err together
+AXIS_STIFFNESS = 10.0 ** np.arange(0.0, 7.1, 0.5)
+TAPER_STIFFNESS = 10.0 ** np.arange(3.0, 9.1, 1.0)
+USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
+PLIANT = (3e1, 1e5)  # what such a fit leaves is error, not the tower's own bends
+
+
+class Model(NamedTuple):
+    """Design of the unknowns: x, y, r, and e, f where the shell is oval."""
+
+    axis: Basis
+    taper: Basis
+    oval: Basis | None
+
+    @property
+    def ends(self) -> "Ints":
+        """Where the coefficients of x, y, r, e, f end."""
+        sizes = [self.axis.size, self.axis.size, self.taper.size]
+        if self.oval is not None:
+            sizes += [self.oval.size] * 2
+        return np.cumsum(sizes)
+
+    def penalty(self, axis: float, taper: float) -> "Floats":
+        """Penalty matrix for given stiffnesses."""
+        ends = self.ends
+        whole = np.zeros((ends[-1], ends[-1]))
+        starts = [0, *ends[:-1]]
+        parts = [axis * self.axis.penalty] * 2 + [taper * self.taper.penalty]
+        if self.oval is not None:
+            parts += [1e2 * taper * self.oval.penalty] * 2
+        for first, last, part in zip(starts, ends, parts, strict=True):
+            whole[first:last, first:last] = part
+        return whole
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A fitted model."""
+
+    model: Model
+    coefficients: "Floats"
+    covariance: "Floats"
+    weight: "Floats"  # (n,) of the cells, 0 to 1
+    residual: "Floats"  # (n,) of the cells
+    stiffness: tuple[float, float]
+
+    def values(self, s: "Floats") -> "Floats":
+        """x, y, r (n, 3) at heights."""
+        columns = []
+        first = 0
+        for basis, last in zip(
+            (self.model.axis, self.model.axis, self.model.taper), self.model.ends, strict=False
+        ):
+            columns.append(basis.design(s) @ self.coefficients[first:last])
+            first = last
+        return np.column_stack(columns)
+
+    def slopes(self, s: "Floats") -> "Floats":
+        """Slopes of x and y (n, 2) at heights."""
+        n = self.model.axis.size
+        design = self.model.axis.design(s, 1)
+        return np.column_stack(
+            [design @ self.coefficients[:n], design @ self.coefficients[n : 2 * n]]
+        )
+
+    def oval(self, s: "Floats") -> "Floats":
+        """Coefficients e and f (n, 2) at heights; zero if the model is round."""
+        if self.model.oval is None:
+            return np.zeros((s.size, 2))
+        first = self.model.ends[2]
+        design, n = self.model.oval.design(s), self.model.oval.size
+        return np.column_stack(
+            [design @ self.coefficients[first : first + n], design @ self.coefficients[first + n :]]
+        )
+
+    def covariances(self, s: "Floats") -> "Floats":
+        """Covariances (n, 2, 2) of x and y at heights."""
+        n = self.model.axis.size
+        design = self.model.axis.design(s)
+        found = np.empty((s.size, 2, 2))
+        for i in range(2):
+            for j in range(2):
+                block = self.covariance[i * n : (i + 1) * n, j * n : (j + 1) * n]
+                found[:, i, j] = ((design @ block) * design).sum(axis=1)
+        return found
+
+
+def normals_of(cells: "Cells") -> "tuple[Floats, Bools]":
+    """Outward normals (n, 2) of the shell at cells, and which cells are on no corner."""
+    faces = cells.reference.faces
+    direction = np.column_stack([np.cos(cells.azimuth), np.sin(cells.azimuth)])
+    if not len(faces):
+        return direction, np.ones(len(direction), dtype=np.bool_)
+    along = direction @ faces.T
+    face = np.argmax(along, axis=1)
+    angle = np.arccos(np.clip(along.max(axis=1), -1.0, 1.0))
+    half = np.pi / len(faces)
+    margin = CORNER * 2.0 * half + np.pi / cells.grid.n_sectors
+    return faces[face], angle < half - margin
+
+
+def fit_cells(
+    cells: "Cells", unit: float, *, is_oval: bool = False, knots: float = KNOTS, rough: bool = False
+) -> Fit:
+    """Fit axis and taper to cells; a ``rough`` fit has the usual stiffnesses and no covariance.
+
+    Notes
+    -----
+    Tukey's weights against what is not the wall. Stiffnesses are chosen by generalised
+    cross-validation, in which cells that err together count once. The covariance is the jackknife
+    over blocks of cells; the penalty's share is that of Nychka (1988), which allows for what a
+    smooth curve misses. O(n) for n cells, and a few dense solutions for the unknowns.
+    """
+    low, high = float(cells.s.min()), float(cells.s.max())
+    spacing = max(knots * unit, 2.0 * cells.grid.level)
+    model = Model(
+        basis_on(low, high, spacing),
+        basis_on(low, high, max(TAPER_KNOTS * unit, spacing)),
+        basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
+    )
+    design, known = design_of(cells, model)
+    blocks = [blocks_of(cells, rise * unit, around) for rise, around in BLOCKS]
+    _, off_corner = normals_of(cells)
+    prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
+    stiffness = (USUAL[0] * unit**3, USUAL[1] * unit**3)
+    weight: Floats = prior
+    residual: Floats = known
+    coefficients = np.zeros(design.shape[1])
+    for round_ in range(ROUNDS):
+        if round_ in CHOOSING and not rough:
+            pliant = model.penalty(PLIANT[0] * unit**3, PLIANT[1] * unit**3)
+            normal = product(design, weight, design) + pliant
+            left = known - design @ solved(normal, design.T @ (weight * known))
+            together = max(joined(weight * left, block) for block in blocks[:2])
+            # A pliant fit keeps half of its freedom: what it leaves may be its own misfit.
+            together = min(together, max(1.0, float(weight.sum()) / (2.0 * len(normal))))
+            stiffness = best_stiffness(design, known, weight, model, stiffness, together, unit**3)
+        normal = product(design, weight, design) + model.penalty(*stiffness)
+        coefficients = solved(normal, design.T @ (weight * known))
+        residual = known - design @ coefficients
+        before, weight = weight, prior * tukey(residual, prior > 0.0, unit)
+        if round_ > max(CHOOSING) and np.abs(weight - before).max() < 0.01:
+            break
+    covariance = np.zeros((0, 0))
+    if not rough:
+        penalty = model.penalty(*stiffness)
+        found = [covariance_of(design, weight, residual, block, penalty) for block in blocks]
+        # Blocks that are smaller than what errs together tell too little; small and many ones are
+        # surer. The largest is on the safe side.
+        covariance = max(found, key=lambda c: float(np.trace(c[: model.ends[1], : model.ends[1]])))
+    return Fit(model, coefficients, covariance, weight, residual, stiffness)
+
+
+def grazed(cells: "Cells", unit: float) -> "Bools":
+    """Which cells lie where beams graze the shell: next to a part that is not seen.
+
+    There a beam is half on the shell and half behind it, and its points lie a few millimetres in.
+    """
+    grid = cells.grid
+    seen = np.zeros((grid.n_levels, grid.n_sectors), dtype=np.bool_)
+    seen[cells.level, cells.sector] = True
+    rise = max(1, round(GAP_HEIGHT * unit / grid.level))
+    bands = np.add.reduceat(seen, np.arange(0, grid.n_levels, rise), axis=0) > 0
+    wide = max(1, round(GAP / 360.0 * grid.n_sectors))
+    hidden = np.all([np.roll(~bands, k, axis=1) for k in range(wide)], axis=0)
+    hidden = np.any([np.roll(hidden, -k, axis=1) for k in range(wide)], axis=0)
+    margin = max(1, round(GRAZED / 360.0 * grid.n_sectors))
+    near = np.any([np.roll(hidden, k, axis=1) for k in range(-margin, margin + 1)], axis=0)
+    # What has hidden parts everywhere is a net of few points, not a shell seen from one side.
+    near &= ~near.all(axis=1)[:, None]
+    found: Bools = near[cells.level // rise, cells.sector]
+    return found
+
+
+def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
+    """Weights by the size of residuals."""
+    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
+    weight: Floats = np.clip(1.0 - (residual / (TUKEY * spread)) ** 2, 0.0, 1.0) ** 2
+    return weight
+
+
+def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
+    """Sparse design (n, unknowns) and what it has to explain: d and the reference's own part."""
+    from scipy.sparse import csr_array, hstack
+
+    normal, _ = normals_of(cells)
+    reference, step = cells.reference.at(cells.s), cells.reference.step
+    ahead, behind = cells.reference.at(cells.s + step), cells.reference.at(cells.s - step)
+    taper = (ahead[:, 2] - behind[:, 2]) / (2.0 * step)
+    lever = (reference[:, 2] * taper)[:, None]
+    along = csr_array(model.axis.design(cells.s) - lever * model.axis.design(cells.s, 1))
+    parts = [along.multiply(normal[:, :1]), along.multiply(normal[:, 1:])]
+    parts.append(csr_array(model.taper.design(cells.s)))
+    if model.oval is not None:
+        oval = csr_array(model.oval.design(cells.s))
+        double = 2.0 * cells.azimuth[:, None]
+        parts += [oval.multiply(np.cos(double)), oval.multiply(np.sin(double))]
+    known = cells.d + reference[:, 2]
+    known = known + (normal * (reference[:, :2] - lever * reference[:, 3:5])).sum(axis=1)
+    return csr_array(hstack(parts)), known
+
+
+def best_stiffness(
+    design: "Any",
+    known: "Floats",
+    weight: "Floats",
+    model: Model,
+    start: tuple[float, float],
+    together: float,
+    cube: float,
+) -> tuple[float, float]:
+    """Stiffnesses of axis and taper by generalised cross-validation, one after the other."""
+    normal = product(design, weight, design)
+    right = design.T @ (weight * known)
+    square, n = float((weight * known) @ known), float(weight.sum())
+
+    def score(axis: float, taper: float) -> float:
+        both = solved(normal + model.penalty(axis, taper), np.column_stack([right, normal]))
+        c = both[:, 0]
+        left = max(square - 2.0 * float(c @ right) + float(c @ normal @ c), 0.0) + 1e-15 * square
+        free = n - together * float(np.trace(both[:, 1:]))
+        return left / max(free, 1e-9) ** 2
+
+    axis, _ = start
+    taper = min(TAPER_STIFFNESS * cube, key=lambda t: score(axis, t))
+    axis = min(AXIS_STIFFNESS * cube, key=lambda a: score(a, taper))
+    return float(axis), float(taper)

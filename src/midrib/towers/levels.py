@@ -1,0 +1,175 @@
+"""Levels: what the axis is at each height, how well it is known, and what is wrong there.
+
+z         heights of the cloud's coordinates, at even steps
+s         heights of the frame, along the rough axis
+"""
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from midrib.towers.records import LEVELS
+from midrib.towers.summary import azimuth_of
+
+if TYPE_CHECKING:
+    from midrib.towers.pipeline import Options, Shell
+    from midrib.types import Bools, Floats
+
+__all__ = ["Centres", "levels_of"]
+
+LEAST_SHARE = 0.3  # of the usual coverage: less, and the tower has not begun or is over
+SEEN = 200.0  # degrees that tell centre and radius apart
+ARC = 40.0  # degrees of a level that are not enough for a centre
+NEAR = 2.5  # metres above and below: what is seen there counts for a level
+UNCERTAIN = 0.005  # metres: largest half interval of 95 % that goes without a flag
+ROUGH, LEAST_ROUGH = 4.0, 5e-4  # times the usual residual; metres
+FLOOR = 3e-5  # metres: what thinning to cells leaves of clutter, whatever the noise
+NORMAL = 1.96
+NO_DATA = "no data"
+
+
+class Centres(NamedTuple):
+    """Centres at heights of the frame, of a mode that finds them level by level."""
+
+    s: "Floats"  # (n,)
+    xy: "Floats"  # (n, 2), NaN where there is none
+    sigma: "Floats"  # (n, 2)
+    why: "np.ndarray[Any, np.dtype[np.str_]]"  # (n,) reasons where there is none
+
+
+class Seen(NamedTuple):
+    """What is seen of the shell, level by level."""
+
+    own: "Floats"  # degrees
+    near: "Floats"  # degrees, levels near by together
+    n: "Floats"  # points
+    residual: "Floats"
+
+
+def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None) -> Any:
+    """Levels of a shell; with the centres of the joint fit unless given."""
+    unit = options.unit
+    frame, cells, fit = shell.cells.reference.frame, shell.cells, shell.fit
+    s_axis = np.arange(cells.s.min(), cells.s.max(), cells.grid.level / 4.0)
+    values = fit.values(s_axis)
+    world = frame.outwards(np.column_stack([values[:, :2], s_axis]))
+    step = options.step or cells.grid.level
+    z, s, seen = heights_of(shell, world[:, 2], s_axis, step, unit)
+    levels = np.zeros(z.size, dtype=LEVELS)
+    levels["z"] = z
+    xy, sigma, why = joint_centres(shell, s) if centres is None else at_heights(centres, s)
+    there = frame.outwards(np.column_stack([xy, s]))
+    # The level is horizontal, the frame nearly so: a centre moves down its own slope to z.
+    slope = np.gradient(world[:, :2], world[:, 2], axis=0)
+    lift = (z - there[:, 2])[:, None]
+    slopes = np.column_stack([np.interp(z, world[:, 2], column) for column in slope.T])
+    levels["x"], levels["y"] = (there[:, :2] + lift * slopes).T
+    levels["radius"] = fit.values(s)[:, 2]
+    levels["coverage"], levels["n"], levels["residual"] = seen.own, seen.n, seen.residual
+    oval = np.hypot(*fit.oval(s).T)
+    is_told = shell.shape.name in {"round", "oval"}
+    levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
+    outer = (
+        (FLOOR * unit) ** 2 + options.registration**2 + (1e-3 * options.levelling * (z - z[0])) ** 2
+    )
+    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
+    levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
+    flags = flags_of(shell, s, seen, levels, why, unit)
+    levels["flag"] = flags
+    unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
+    for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "ovality"):
+        levels[name][unanswered] = np.nan
+    add_deviations(levels)
+    return levels
+
+
+def joint_centres(shell: "Shell", s: "Floats") -> "tuple[Floats, Floats, Any]":
+    """Centres, standard deviations and no reasons of the joint fit."""
+    variance = shell.fit.covariances(s)[:, [0, 1], [0, 1]]
+    return (
+        shell.fit.values(s)[:, :2],
+        np.sqrt(np.maximum(variance, 0.0)),
+        np.full(s.size, "", "U96"),
+    )
+
+
+def at_heights(centres: Centres, s: "Floats") -> "tuple[Floats, Floats, Any]":
+    """Centres between their heights, where both neighbours are there."""
+    xy = np.column_stack([np.interp(s, centres.s, column) for column in centres.xy.T])
+    sigma = np.column_stack([np.interp(s, centres.s, column) for column in centres.sigma.T])
+    nearest = np.abs(s[:, None] - centres.s).argmin(axis=1)
+    return xy, sigma, centres.why[nearest]
+
+
+def heights_of(
+    shell: "Shell", z_axis: "Floats", s_axis: "Floats", step: float, unit: float
+) -> "tuple[Floats, Floats, Seen]":
+    """Heights z and s of the levels, and what is seen there; from where the tower begins."""
+    first, last = np.ceil(z_axis[0] / step), np.floor(z_axis[-1] / step)
+    z = step * np.arange(first, last + 1)
+    s = np.interp(z, z_axis, s_axis)
+    seen = seen_at(shell, s, step, unit)
+    usual = LEAST_SHARE * np.median(seen.own[seen.own > 0.0])
+    inside = np.flatnonzero(seen.own >= usual)
+    rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(None)
+    return z[rows], s[rows], Seen(*(column[rows] for column in seen))
+
+
+def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
+    """Look what is seen of the shell around heights."""
+    cells, fit = shell.cells, shell.fit
+    used = fit.weight > 0.0
+    width = 360.0 / cells.grid.n_sectors
+    own, near, n, residual = (np.zeros(s.size) for _ in range(4))
+    half = max(step, cells.grid.level) / 2.0 + 1e-9
+    for i, at in enumerate(s):
+        off = np.abs(cells.s - at)
+        here = used & (off <= half)
+        own[i] = np.unique(cells.sector[here]).size * width
+        around = used & (off <= NEAR * unit)
+        near[i] = np.unique(cells.sector[around]).size * width
+        n[i] = cells.n[here].sum()
+        residual[i] = np.sqrt(np.mean(fit.residual[here] ** 2)) if here.any() else np.nan
+    return Seen(own, near, n, residual)
+
+
+def flags_of(
+    shell: "Shell", s: "Floats", seen: Seen, levels: Any, why: Any, unit: float
+) -> "np.ndarray[Any, np.dtype[np.str_]]":
+    """Flag of each level, the first reason that holds; empty where all is well."""
+    half = NORMAL * np.maximum(levels["sigma_x"], levels["sigma_y"])
+    usual = max(np.nanmedian(levels["residual"]), LEAST_ROUGH * unit)
+    flags = np.full(s.size, "", dtype="U96")
+    in_dent = np.zeros(s.size, dtype=np.bool_)
+    for low, high in shell.dents:
+        in_dent |= (s >= low) & (s < high)
+    # A hollow tower's faces may be hidden in part; only of round shells does the arc matter.
+    is_round = not len(shell.cells.reference.faces)
+
+    def mark(rows: "Bools", text: Any) -> None:
+        free = rows & (flags == "")
+        flags[free] = text if isinstance(text, str) else np.asarray(text)[free]
+
+    mark(seen.own == 0.0, NO_DATA)
+    mark(seen.near < ARC, [f"only {arc:.0f}° of the shell seen" for arc in seen.near])
+    mark(why != "", why)
+    mark(np.isnan(levels["x"]), NO_DATA)
+    mark(np.full(s.size, shell.shape.problem != ""), shell.shape.problem)
+    mark(half > UNCERTAIN * unit, [f"uncertain by {1e3 * h / unit:.1f} mm" for h in half])
+    if is_round:
+        mark(seen.near < SEEN, "radius from taper prior")
+    mark(in_dent, "dented, or partly hidden")
+    mark(levels["residual"] > ROUGH * usual, "rough")
+    return flags
+
+
+def add_deviations(levels: Any) -> None:
+    """Deviations from the vertical through the lowest level with a centre."""
+    answered = np.flatnonzero(np.isfinite(levels["x"]))
+    if not answered.size:
+        levels["deviation"] = levels["azimuth"] = np.nan
+        return
+    base = levels[answered[0]]
+    dx, dy = levels["x"] - base["x"], levels["y"] - base["y"]
+    levels["deviation"] = np.hypot(dx, dy)
+    levels["azimuth"] = azimuth_of(dx, dy)

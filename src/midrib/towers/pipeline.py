@@ -1,0 +1,246 @@
+"""From a cloud to the axis: sample, shape, reference, cells, gate, mode, levels.
+
+A cloud is read three times, or once more where the first fit was rough: for the sample, for coarse
+cells, and for fine cells measured from the shell that the coarse ones gave. Memory does not depend
+on the number of points.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias
+
+import numpy as np
+
+from midrib.checks import check_library, is_number, shown
+from midrib.errors import ParameterError
+from midrib.towers.cells import Cells, Reference, cells_of, grid_for, reference_of
+from midrib.towers.cloud import Cloud, sample_of
+from midrib.towers.faces import rough_polygon
+from midrib.towers.gate import bands_of, shape_of
+from midrib.towers.joint import Fit, fit_cells
+from midrib.towers.levels import levels_of
+from midrib.towers.records import Shape, TowerAxis
+from midrib.towers.rough import Rough, Search, rough_round
+from midrib.towers.thinning import Thinning
+
+if TYPE_CHECKING:
+    from midrib.types import Floats
+
+__all__ = ["Mode", "Options", "ShapeName", "Shell", "axis_of", "untracked"]
+
+Mode: TypeAlias = Literal["joint", "fan", "paper"]
+ShapeName: TypeAlias = Literal["auto", "round", "polygon"]
+Track: TypeAlias = Callable[["Iterable[Floats]", str], "Iterable[Floats]"]
+MODES, SHAPES = ("joint", "fan", "paper"), ("auto", "round", "polygon")
+SAMPLE = 200_000
+BEYOND = 0.02  # of the height: the tower may go on where the sample has few points
+MOST_OFF = (0.05, 0.012)  # of the radius, metres: a section whose points are farther off is another
+BETTER = 0.6  # times as far off points are if the tower has faces
+MOVED = 1e-4  # metres: fine cells are counted anew if their reference was off by more
+MOST_PASSES = 3
+
+
+@dataclass(frozen=True)
+class Options:
+    """What a caller may choose; lengths in coordinate units unless said."""
+
+    mode: Mode = "joint"
+    shape: ShapeName = "auto"
+    step: float | None = None
+    unit: float = 1.0
+    near: tuple[float, float] | None = None
+    radius: tuple[float, float] | None = None
+    registration: float = 0.0
+    levelling: float = 0.0  # mm per m
+    planes: int = 18
+    thinning: Thinning = "moving-least-squares"
+
+    def check(self) -> None:
+        """Refuse values that an option cannot have.
+
+        Raises
+        ------
+        ParameterError
+            If there is one.
+        MissingDependencyError
+            If scipy is not installed.
+        """
+        for name, value, known in (
+            ("mode", self.mode, MODES),
+            ("shape", self.shape, SHAPES),
+            ("thinning", self.thinning, ("average-depth", "moving-least-squares")),
+        ):
+            if value not in known:
+                msg = f"{name} is {shown(value)}, expected {' or '.join(map(repr, known))}"
+                raise ParameterError(msg)
+        for name in ("unit", "step"):
+            value = getattr(self, name)
+            if value is not None and not (is_number(value) and 0.0 < value < np.inf):
+                msg = f"{name} is {shown(value)}, expected a number above 0"
+                raise ParameterError(msg)
+        for name in ("registration", "levelling"):
+            value = getattr(self, name)
+            if not (is_number(value) and 0.0 <= value < np.inf):
+                msg = f"{name} is {shown(value)}, expected a number from 0 on"
+                raise ParameterError(msg)
+        for name in ("near", "radius"):
+            pair = getattr(self, name)
+            if pair is not None and not (len(pair) == 2 and all(is_number(v) for v in pair)):
+                msg = f"{name} is {shown(pair)}, expected two numbers"
+                raise ParameterError(msg)
+        if not isinstance(self.planes, int) or not 3 <= self.planes <= 36:
+            msg = f"planes is {shown(self.planes)}, expected a whole number from 3 to 36"
+            raise ParameterError(msg)
+        check_library("scipy", "a tower's axis", "towers")
+
+
+class Shell(NamedTuple):
+    """What every mode starts from: the cells, and the joint fit of them."""
+
+    cells: Cells
+    fit: Fit
+    shape: Shape
+    dents: "Floats"  # heights (k, 2) of bands with a dent, of the frame
+
+
+def untracked(chunks: "Iterable[Floats]", _: str) -> "Iterable[Floats]":
+    """Show no progress."""
+    return chunks
+
+
+def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAxis:
+    """Axis of the tower in a cloud.
+
+    Raises
+    ------
+    ParameterError
+        If there are too few points, or no tower is found among them.
+    """
+    from midrib.towers.fan import fan
+    from midrib.towers.paper import paper
+
+    options.check()
+    shell = shell_of(cloud, options, track)
+    steps: dict[str, Any] = {}
+    if options.mode == "joint":
+        levels = levels_of(shell, options)
+    elif options.mode == "fan":
+        centres, steps = fan(shell, options)
+        levels = levels_of(shell, options, centres)
+    else:
+        centres, steps = paper(shell, cloud, options, track)
+        levels = levels_of(shell, options, centres)
+    fit = shell.fit
+    return TowerAxis(
+        levels=levels,
+        mode=options.mode,
+        shape=shell.shape,
+        unit=options.unit,
+        crs=cloud.crs,
+        count=int(shell.cells.n.sum()),
+        cells=shell.cells,
+        residual=fit.residual,
+        used=fit.weight > 0.0,
+        steps=steps,
+    )
+
+
+def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
+    """Cells of the shell and the joint fit to them."""
+    unit = options.unit
+    sample = sample_of(tracked(cloud, track, "sampling"), SAMPLE)
+    rough = shape_found(sample, options)
+    heights = rough.frame.inwards(sample)[:, 2]
+    low, high = np.percentile(heights, [0.2, 99.8])
+    margin = BEYOND * (high - low)
+    low, high = float(low - margin), float(high + margin)
+    count = float(cloud.count or len(sample))
+    reference = reference_of(rough, unit, low, high)
+    grid = grid_for(low, high, on_shell(rough, sample, unit) * count / len(sample), unit)
+    cells = cells_of(track(cloud.chunks(), "coarse cells"), reference, grid, unit, fine=False)
+    fit = fit_cells(cells, unit, rough=True)
+    for _ in range(MOST_PASSES):
+        reference = refined(reference, fit)
+        cells = cells_of(track(cloud.chunks(), "fine cells"), reference, grid, unit, fine=True)
+        fit = fit_cells(cells, unit)
+        used = cells.s[fit.weight > 0.0]
+        moved = np.abs(fit.values(used) - reference.at(used)[:, :3]).max(initial=0.0)
+        if moved < MOVED * unit or cells.grid.enough < 4:
+            break
+    return gated(cells, fit, unit)
+
+
+def tracked(cloud: Cloud, track: Track, doing: str) -> Cloud:
+    """Cloud whose chunks show progress."""
+
+    class Shown:
+        """A cloud that is watched."""
+
+        count, metres, crs, name = cloud.count, cloud.metres, cloud.crs, cloud.name
+
+        def chunks(self) -> Any:
+            """Points, a chunk at a time."""
+            return iter(track(cloud.chunks(), doing))
+
+    return Shown()
+
+
+def shape_found(sample: "Floats", options: Options) -> Rough:
+    """Rough axis with the shape that is wanted, or that explains the sample better.
+
+    Raises
+    ------
+    ParameterError
+        If neither does.
+    """
+    search = Search(options.unit, options.near, options.radius)
+    polygon = rough_polygon(sample, search) if options.shape != "round" else None
+    circular, why = None, "no flat faces were found"
+    if options.shape != "polygon":
+        try:
+            circular = rough_round(sample, search)
+        except ParameterError as error:
+            why = str(error)
+    found = circular or polygon
+    if polygon and circular:
+        found = polygon if polygon.off < BETTER * circular.off else circular
+    if found is None:
+        raise ParameterError(why)
+    usual = float(np.median(found.table[:, 3]))
+    if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
+        msg = (
+            "no tower was found: points are neither on circles nor on the faces of a regular "
+            f"polygon, half of them more than {found.off / options.unit:.2g} m off the best; "
+            "near= and radius= say where it is and how thick"
+        )
+        raise ParameterError(msg)
+    return found
+
+
+def on_shell(rough: Rough, sample: "Floats", unit: float) -> int:
+    """How many points of the sample are near the rough shell."""
+    q = rough.frame.inwards(sample)
+    x, y, r = (np.interp(q[:, 2], rough.table[:, 0], rough.table[:, k]) for k in (1, 2, 3))
+    way = np.column_stack([q[:, 0] - x, q[:, 1] - y])
+    away = (way @ rough.faces.T).max(axis=1) if len(rough.faces) else np.hypot(*way.T)
+    return int((np.abs(away - r) < np.minimum(0.1 * unit, 0.2 * r)).sum())
+
+
+def refined(reference: Reference, fit: Fit) -> Reference:
+    """Return the shell of a fit to measure from."""
+    s = reference.start + reference.step * np.arange(len(reference.table), dtype=np.float64)
+    values = fit.values(s)
+    values[:, 2] = np.maximum(values[:, 2], 0.1 * np.median(values[:, 2]))
+    return reference._replace(table=np.column_stack([values, fit.slopes(s)]))
+
+
+def gated(cells: Cells, fit: Fit, unit: float) -> Shell:
+    """Look at the shape of the sections; an oval is fitted anew with its own terms."""
+    bands = bands_of(cells, fit.residual, fit.weight, unit)
+    shape, dents = shape_of(
+        bands, cells.reference.faces, float(np.median(cells.reference.table[:, 2])), unit
+    )
+    if shape.name == "oval":
+        fit = fit_cells(cells, unit, is_oval=True)
+    low = cells.grid.start + dents * bands.height
+    return Shell(cells, fit, shape, np.column_stack([low, low + bands.height]))

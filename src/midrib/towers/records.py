@@ -1,0 +1,117 @@
+"""What is handed over about a tower: its levels, its axis as a whole, and how they were found."""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import shapely
+from shapely import LineString
+
+from midrib.towers.summary import Kink, Summary, kinks_of, summary_of
+
+if TYPE_CHECKING:
+    from midrib.towers.cells import Cells
+    from midrib.types import Bools, Floats
+
+__all__ = ["LEVELS", "Shape", "TowerAxis"]
+
+LEVELS = np.dtype(
+    [(name, np.float64) for name in ("z", "x", "y", "radius", "sigma", "deviation", "azimuth")]
+    + [("coverage", np.float64), ("n", np.int64), ("flag", "U96")]
+    + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y")]
+)
+
+
+class Shape(NamedTuple):
+    """What the sections are, and what they are not."""
+
+    name: str  # round, oval, square, polygon, unknown
+    faces: int  # number of flat faces, 0 if there are none
+    azimuth: float  # degrees from north (y), clockwise: of a face's normal, of the longest diameter
+    harmonics: dict[int, tuple[float, float]]  # amplitude and its standard deviation, by order
+    problem: str  # why the sections do not suit the model, empty if they do
+
+    @property
+    def text(self) -> str:
+        """Name for people."""
+        return f"{self.name}, {self.faces} faces" if self.name == "polygon" else self.name
+
+
+@dataclass(frozen=True, eq=False)
+class TowerAxis:
+    """The axis of a tower by levels, with its uncertainty.
+
+    Attributes
+    ----------
+    levels : structured array
+        From the base up. ``z``, ``x``, ``y`` of the centre; ``radius`` (of a polygon that of the
+        inscribed circle); ``sigma`` of one coordinate of the centre; ``deviation`` from the
+        vertical through the lowest level and its ``azimuth`` in degrees from y (north) clockwise;
+        ``coverage``, degrees of the shell that are seen; ``n`` points; ``flag``, empty where all is
+        well; ``ovality``, longest less shortest diameter over the mean one, NaN where unknown;
+        ``residual``, standard deviation of the cells of the level; ``sigma_x``, ``sigma_y``.
+        Lengths are in coordinate units. A level without an answer has NaN and a flag.
+    mode : str
+        "joint", "fan" or "paper".
+    shape : Shape
+        What the sections are.
+    unit : float
+        Coordinate units in a metre.
+    crs : str or None
+        Reference system of the coordinates.
+    count : int
+        Points of the cloud that lie near the shell.
+    steps : dict
+        What was made on the way, of "paper": see ``midrib.towers.paper``.
+    """
+
+    levels: "np.ndarray[Any, np.dtype[np.void]]"
+    mode: str
+    shape: Shape
+    unit: float
+    crs: str | None
+    count: int
+    cells: "Cells"
+    residual: "Floats"  # (n,) of the cells, along the wall's normal
+    used: "Bools"  # (n,) which cells counted
+    steps: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def is_answered(self) -> "Bools":
+        """(n,) which levels have a centre."""
+        found: Bools = np.isfinite(self.levels["x"])
+        return found
+
+    @cached_property
+    def points(self) -> "Floats":
+        """(k, 3) centres of the levels that have one."""
+        there = self.levels[self.is_answered]
+        return np.column_stack([there["x"], there["y"], there["z"]])
+
+    @cached_property
+    def line(self) -> LineString:
+        """The axis, a LineString Z through the levels that have a centre."""
+        return (
+            LineString(self.points)
+            if len(self.points) > 1
+            else shapely.from_wkt("LINESTRING Z EMPTY")
+        )
+
+    @cached_property
+    def summary(self) -> Summary:
+        """The axis as a whole: best line, straightness, largest deviation."""
+        return summary_of(self.levels[self.is_answered], self.unit)
+
+    @cached_property
+    def kinks(self) -> list[Kink]:
+        """Where the axis changes its direction, for certain."""
+        return kinks_of(self.levels[self.is_answered], self.unit)
+
+    def __repr__(self) -> str:
+        """Show what there is of it."""
+        flagged = int((self.levels["flag"] != "").sum())
+        return (
+            f"<TowerAxis: {self.mode}, {self.shape.text}, {len(self.levels)} levels, "
+            f"{flagged} flagged>"
+        )

@@ -1,0 +1,101 @@
+"""``midrib tower``: files that are whole, exit codes, sentences."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from ezdxf.filemanagement import readfile
+from pyarrow import csv
+
+from midrib.formats.reading import layer_names
+from tests.cli.commands import Runner
+from tests.formats.layers import read_all
+from tests.towers.scans import CONE, dirty
+
+
+@pytest.fixture(scope="module")
+def scan(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Scan of a clean tower."""
+    path = tmp_path_factory.mktemp("scans") / "chimney.npy"
+    np.save(path, CONE.points())
+    return path
+
+
+def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    names = ("report.html", "levels.csv", "axis.dxf", "axis.gpkg", "levels.parquet")
+    places = [tmp_path / name for name in names]
+    outs = [word for path in places[1:] for word in ("-o", path)]
+    outcome = midrib(
+        "tower", scan, "--report", places[0], *outs, "--tolerance", "10mm + h/200", "--title", "A<B"
+    )
+    assert outcome.code == 0, outcome.err
+    page = places[0].read_text(encoding="utf-8")
+    assert "<h1>A&lt;B</h1>" in page
+    assert page.count("<svg") == 3
+    assert "no level is beyond it" in page
+    assert "leans by 2.50 mm/m" in outcome.out
+    table = csv.read_csv(places[1])
+    assert page.count("<tr") == table.num_rows + 2 + outcome.out.count("\n")
+    expected = CONE.axis(np.array(table["z"]))
+    assert np.array(table["x"]) == pytest.approx(expected[:, 0], abs=1e-6)
+    lines = list(readfile(places[2]).modelspace())
+    assert len(lines) == 1
+    assert set(layer_names(places[3])) == {"axis", "levels"}
+    _, attributes, points = read_all(places[4])
+    assert len(points) == table.num_rows
+    assert shapely.get_z(points).tolist() == attributes["z"].to_pylist()
+    assert not [path for path in tmp_path.iterdir() if path not in places]
+
+
+def test_pdf_has_all_pages(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    outcome = midrib("tower", scan, "--report", tmp_path / "a.pdf", "--step", "1m", "-q")
+    assert outcome.code == 0, outcome.err
+    content = (tmp_path / "a.pdf").read_bytes()
+    assert content.startswith(b"%PDF")
+    assert content.count(b"/Type /Page\n") + content.count(b"/Type /Page ") == 3
+
+
+def test_flagged_levels_give_exit_code_one(midrib: Runner, tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", dirty().points())
+    outcome = midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.csv")
+    assert outcome.code == 1
+    flags = csv.read_csv(tmp_path / "a.csv")["flag"].to_pylist()
+    assert "no data" in flags
+
+
+WRONG = {
+    "ending": (["--report", "a.txt"], "--report 'a.txt' ends in '.txt', expected .html or .pdf"),
+    "tolerance": (["--tolerance", "some"], "--tolerance is 'some', expected a length (50mm)"),
+    "near": (["--near", "5"], "--near is '5', expected two numbers: 1.5,3"),
+    "step": (["--step", "long"], "--step is 'long', expected a number"),
+    "unit": (["--unit", "ells"], "--unit is 'ells', expected one of mm, cm"),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_wrong_usage_is_told(
+    case: str, scan: Path, midrib: Runner, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    options, sentence = WRONG[case]
+    outcome = midrib("tower", scan, *options)
+    assert outcome.code == 2
+    assert sentence in outcome.err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_files_that_are_there_stay_unless_told(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("mine", encoding="utf-8")
+    outcome = midrib("tower", scan, "-o", tmp_path / "a.csv")
+    assert outcome.code == 2
+    assert "exists, give --overwrite" in outcome.err
+    assert (tmp_path / "a.csv").read_text(encoding="utf-8") == "mine"
+
+
+def test_a_cloud_without_a_tower_is_refused(midrib: Runner, tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", np.random.default_rng(1).uniform(0, 9, (5000, 3)))
+    outcome = midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.csv")
+    assert outcome.code == 2
+    assert "no tower was found" in outcome.err
+    assert not (tmp_path / "a.csv").exists()

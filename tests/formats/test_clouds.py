@@ -1,0 +1,181 @@
+"""Point clouds: what goes into a file comes back, and broken files are told in a sentence."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from midrib.errors import ParameterError
+from midrib.formats.clouds import open_cloud
+from midrib.types import Floats
+
+FAR = np.array([6_482_000.0, 5_617_000.0, 150.0])
+POINTS = np.random.default_rng(4).uniform(0.0, 50.0, (1000, 3)) + FAR
+
+
+def las(path: Path) -> None:
+    """Write POINTS with a tenth of a millimetre."""
+    laspy = pytest.importorskip("laspy")
+    header = laspy.LasHeader(point_format=0, version="1.2")
+    header.scales, header.offsets = np.full(3, 1e-4), FAR
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = POINTS.T
+    cloud.write(path)
+
+
+def e57(path: Path) -> None:
+    """Write POINTS as two scans, the second one turned and moved by its pose."""
+    pye57 = pytest.importorskip("pye57")
+    file = pye57.E57(str(path), mode="w")
+    names = ("cartesianX", "cartesianY", "cartesianZ")
+    near = POINTS - FAR
+    file.write_scan_raw(dict(zip(names, near[:400].T.copy(), strict=True)), translation=FAR)
+    half_turn = near[400:] * [-1.0, -1.0, 1.0]  # a pose that turns by 180° about z takes it back
+    turn = np.array([0.0, 0.0, 0.0, 1.0])
+    file.write_scan_raw(
+        dict(zip(names, half_turn.T.copy(), strict=True)), rotation=turn, translation=FAR
+    )
+    file.close()
+
+
+def ply(form: str, kind: str) -> Callable[[Path], None]:
+    """Writer of POINTS with a colour between the coordinates and a face after them."""
+
+    def write(path: Path) -> None:
+        names = {"f8": "double", "f4": "float"}
+        head = f"ply\nformat {form} 1.0\ncomment x\nelement vertex {len(POINTS)}\n"
+        head += f"property {names[kind]} x\nproperty uchar red\nproperty {names[kind]} y\n"
+        head += f"property {names[kind]} z\nelement face 1\n"
+        head += "property list uchar int vertex_indices\nend_header\n"
+        if form == "ascii":
+            rows = "".join(f"{x!r} 7 {y!r} {z!r}\n" for x, y, z in POINTS.tolist())
+            path.write_bytes((head + rows + "3 0 1 2\n").encode())
+            return
+        order = "<" if "little" in form else ">"
+        record = np.zeros(
+            len(POINTS),
+            dtype=[("x", order + kind), ("red", "u1"), ("y", order + kind), ("z", order + kind)],
+        )
+        record["x"], record["y"], record["z"] = POINTS.T
+        path.write_bytes(head.encode() + record.tobytes() + b"\x03" + bytes(12))
+
+    return write
+
+
+def text(line: str, heading: str = "") -> Callable[[Path], None]:
+    """Writer of POINTS as text."""
+
+    def write(path: Path) -> None:
+        rows = (line.format(i=i, x=x, y=y, z=z) for i, (x, y, z) in enumerate(POINTS.tolist()))
+        path.write_text(heading + "\n".join(rows) + "\n", encoding="utf-8")
+
+    return write
+
+
+WRITERS: dict[str, tuple[str, Callable[[Path], None], float]] = {
+    "las": ("a.las", las, 6e-5),
+    "laz": ("a.laz", las, 6e-5),
+    "e57": ("a.e57", e57, 3e-6),
+    "ply_little": ("a.ply", ply("binary_little_endian", "f8"), 0.0),
+    "ply_big": ("a.PLY", ply("binary_big_endian", "f8"), 0.0),
+    "ply_single": ("a.ply", ply("binary_little_endian", "f4"), 0.5),
+    "ply_text": ("a.ply", ply("ascii", "f8"), 0.0),
+    "blanks": ("a.xyz", text(" {x!r}  {y!r}\t{z!r} 255 "), 0.0),
+    "commas": ("a.csv", text("{x!r},{y!r},{z!r}"), 0.0),
+    "heading": ("a.csv", text("{i};{z!r};{x!r};{y!r}", "id;Z;X;Y\n"), 0.0),
+    "english": ("a.txt", text("{y!r},{x!r},{z!r}", "northing,easting,height\n"), 0.0),
+    "names": ("a.csv", text("p{i},{x!r},{y!r},{z!r},"), 0.0),
+    "numbers": ("a.csv", text("{i},{x!r},{y!r},{z!r}"), 0.0),
+    "comments": ("a.txt", text("{x!r} {y!r} {z!r}", "# made by hand\n\n// twice\n"), 0.0),
+    "count": ("a.pts", text("{x!r} {y!r} {z!r} 12", "1000\n"), 0.0),
+    "npy": ("a.npy", lambda path: np.save(path, POINTS), 0.0),
+    "npz": ("a.npz", lambda path: np.savez(path, other=np.zeros(3), points=POINTS), 0.0),
+}
+
+
+def read(path: Path) -> Floats:
+    """All points of a file, read twice to see that every reading begins anew."""
+    cloud = open_cloud(path)
+    once, twice = (np.concatenate(list(cloud.chunks())) for _ in range(2))
+    assert np.array_equal(once, twice)
+    assert cloud.count in {None, len(once)}
+    return once
+
+
+@pytest.mark.parametrize("case", WRITERS)
+def test_points_come_back(case: str, tmp_path: Path) -> None:
+    name, write, most = WRITERS[case]
+    write(tmp_path / name)
+    found = read(tmp_path / name)
+    assert found.shape == POINTS.shape
+    assert np.abs(found - POINTS).max() <= most
+
+
+def test_unit_of_a_las_file_is_that_of_its_reference_system(tmp_path: Path) -> None:
+    laspy = pytest.importorskip("laspy")
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    wkt = (
+        'LOCAL_CS["site",LOCAL_DATUM["site",0],UNIT["foot",0.3048],AXIS["x",EAST],AXIS["y",NORTH]]'
+    )
+    header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt))
+    laspy.LasData(header).write(tmp_path / "a.las")
+    assert open_cloud(tmp_path / "a.las").metres in {0.3048, None}
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    utm = (
+        'PROJCS["x",GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],'
+        'PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],'
+        'PROJECTION["Transverse_Mercator"],PARAMETER["latitude_of_origin",0],'
+        'PARAMETER["central_meridian",15],PARAMETER["scale_factor",0.9996],'
+        'PARAMETER["false_easting",500000],PARAMETER["false_northing",0],'
+        'UNIT["US survey foot",0.304800609601219]]'
+    )
+    header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(utm))
+    laspy.LasData(header).write(tmp_path / "b.las")
+    assert open_cloud(tmp_path / "b.las").metres == pytest.approx(0.304800609601219)
+
+
+BROKEN = {
+    "missing": ("a.las", None, "does not exist"),
+    "ending": ("a.docx", b"x", "ends in '.docx', expected .las, .laz"),
+    "las": ("a.las", b"LASF" + bytes(20), "cannot be read"),
+    "no_las": ("a.laz", b"hello", "cannot be read"),
+    "no_e57": ("a.e57", b"hello" * 99, "cannot be read"),
+    "no_ply": ("a.ply", b"hello", "it is no PLY file"),
+    "ply_short": (
+        "a.ply",
+        b"ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty double x\n"
+        b"property double y\nproperty double z\nend_header\n" + bytes(30),
+        "it ends after 1 of 9 points",
+    ),
+    "ply_flat": (
+        "a.ply",
+        b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+        b"end_header\n1 2\n",
+        "has no property z",
+    ),
+    "words": ("a.txt", b"once upon a time\nthere was\n", "no line with three numbers"),
+    "word": ("a.csv", b"1.0,2.0,3.0\n1.0,oops,3.0\n", "has 'oops' for a coordinate"),
+    "empty": ("a.xyz", b"", "no line with three numbers"),
+    "npy": ("a.npy", b"hello", "cannot be read"),
+}
+
+
+@pytest.mark.parametrize("case", BROKEN)
+def test_broken_files_are_told_in_a_sentence(case: str, tmp_path: Path) -> None:
+    name, content, sentence = BROKEN[case]
+    path = tmp_path / name
+    if content is not None:
+        path.write_bytes(content)
+    if name.endswith(".e57"):
+        pytest.importorskip("pye57")
+    with pytest.raises(ParameterError, match="CLOUD") as caught:
+        list(open_cloud(path).chunks())
+    assert sentence in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_arrays_of_another_shape_are_refused(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", np.zeros((5, 2)))
+    with pytest.raises(ParameterError, match=r"shape \(5, 2\), expected numbers \(n, 3\)"):
+        open_cloud(tmp_path / "a.npy")

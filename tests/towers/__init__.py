@@ -1,0 +1,1 @@
+"""Tests of towers: simulated scans, real clouds."""

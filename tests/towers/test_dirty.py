@@ -1,0 +1,148 @@
+"""Scans as they are: noise, clutter, hidden parts, sections that are no circles."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from midrib import tower_axis
+from midrib.errors import ParameterError
+from midrib.towers.simulate import Scan, Tower
+from tests.towers.scans import CONE, dirty, offsets
+
+ROUGH = Tower(40.0, 2.5, 1.5, lean=0.1, form_error=0.003, seed=1)
+
+
+@pytest.mark.parametrize(("mode", "most"), [("joint", 5e-4), ("fan", 1e-3), ("paper", 3e-3)])
+def test_clutter_does_not_move_the_axis(mode: Any, most: float) -> None:
+    scan = dirty(ROUGH)
+    axis = tower_axis(scan.points(), mode)
+    away = offsets(axis, scan)
+    assert np.sqrt(np.nanmean(away**2)) < most
+    assert away[axis.levels["flag"] == ""].max() < 5e-3
+
+
+def test_levels_hidden_by_a_platform_are_missing_and_say_so() -> None:
+    levels = tower_axis(dirty().points()).levels
+    hidden = np.abs(levels["z"] - 16.2) < 0.1
+    near = levels[(np.abs(levels["z"] - 16.2) < 0.6)]
+    assert np.isnan(near["x"]).any()
+    assert hidden.sum() <= 1
+    assert (levels["flag"][np.isnan(levels["x"])] == "no data").all()
+
+
+def test_intervals_hold_for_most_levels() -> None:
+    held = []
+    for seed in range(3):
+        scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, form_error=0.003, seed=seed), seed=seed)
+        levels = tower_axis(scan.points()).levels
+        levels = levels[np.isfinite(levels["x"])]
+        off = np.column_stack([levels["x"], levels["y"]]) - scan.axis(levels["z"])
+        held.append(np.abs(off) <= 1.96 * np.column_stack([levels["sigma_x"], levels["sigma_y"]]))
+    assert 0.8 < np.concatenate(held).mean() < 0.995
+
+
+def test_registration_and_levelling_are_added_to_the_uncertainty() -> None:
+    points = CONE.points()
+    levels = tower_axis(points, registration=0.002, levelling=0.1).levels
+    height = levels["z"] - levels["z"][0]
+    assert levels["sigma"] == pytest.approx(np.hypot(0.002, 1e-4 * height), rel=1e-3)
+
+
+@pytest.mark.parametrize("azimuths", [(10.0,), (0.0, 30.0)])
+def test_one_side_is_answered_by_the_joint_mode_only(azimuths: tuple[float, ...]) -> None:
+    scan = dirty(ROUGH, azimuths=azimuths)
+    joint, fan = tower_axis(scan.points()), tower_axis(scan.points(), "fan")
+    away = offsets(joint, scan)
+    assert np.sqrt(np.nanmean(away**2)) < 3e-3
+    flags = joint.levels["flag"][joint.is_answered]
+    assert (flags == "radius from taper prior").mean() > 0.9
+    assert not fan.is_answered.any() or (fan.levels["flag"] != "").all()
+
+
+def test_an_oval_is_recognised_with_its_size_and_direction() -> None:
+    scan = dirty(Tower(40.0, 2.5, 1.5, oval=0.01, twist=30.0))
+    axis = tower_axis(scan.points())
+    assert axis.shape.name == "oval"
+    assert axis.shape.azimuth == pytest.approx(60.0, abs=3.0)  # 30° from x is 60° from y
+    assert np.nanmedian(axis.levels["ovality"]) == pytest.approx(0.01, abs=0.002)
+    assert np.nanmax(offsets(axis, scan)) < 1e-3
+
+
+@pytest.mark.parametrize(("faces", "name"), [(4, "square"), (6, "polygon"), (8, "polygon")])
+def test_faces_are_recognised(faces: int, name: str) -> None:
+    scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))
+    axis = tower_axis(scan.points())
+    assert (axis.shape.name, axis.shape.faces) == (name, faces)
+    assert np.nanmax(offsets(axis, scan)) < 2e-3
+
+
+def test_a_square_seen_from_one_side_is_refused() -> None:
+    scan = dirty(Tower(40.0, 2.5, 1.5, faces=4, twist=20.0), azimuths=(20.0,))
+    with pytest.raises(ParameterError, match="no tower was found"):
+        tower_axis(scan.points())
+
+
+def test_lobes_are_flagged_at_every_level() -> None:
+    points = CONE.points()
+    away = np.hypot(points[:, 0], points[:, 1])[:, None]
+    lobed = points.copy()
+    angle = np.arctan2(points[:, 1], points[:, 0])[:, None]
+    lobed[:, :2] += points[:, :2] / away * 0.01 * np.cos(3.0 * angle)
+    axis = tower_axis(lobed)
+    assert axis.shape.problem.startswith("section not circular: harmonic 3")
+    assert (axis.levels["flag"] != "").all()
+
+
+def test_a_second_tower_is_left_alone() -> None:
+    other = CONE.points() + np.array([12.0, 0.0, 0.0])
+    both = np.concatenate([CONE.points(), other[::2]])
+    axis = tower_axis(both, near=(12.0, 0.0))
+    assert axis.points[0, 0] == pytest.approx(12.0, abs=0.01)
+    axis = tower_axis(both, near=(0.0, 0.0))
+    assert axis.points[0, 0] == pytest.approx(0.0, abs=0.01)
+
+
+def test_order_of_points_does_not_matter() -> None:
+    points = dirty(ROUGH).points()
+    one = tower_axis(points)
+    other = tower_axis(np.random.default_rng(9).permutation(points))
+    both = one.is_answered & other.is_answered
+    assert one.points.shape == other.points.shape
+    off = np.hypot(one.levels["x"] - other.levels["x"], one.levels["y"] - other.levels["y"])
+    assert off[both].max() < 2e-4
+
+
+def test_noise_alone_is_no_tower() -> None:
+    points = np.random.default_rng(1).uniform(0, 20, (20_000, 3))
+    with pytest.raises(ParameterError, match="no tower was found"):
+        tower_axis(points)
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"mode": "best"}, "mode is 'best', expected 'joint' or 'fan' or 'paper'"),
+        ({"step": 0.0}, "step is 0.0, expected a number above 0"),
+        ({"registration": -1.0}, "registration is -1.0, expected a number from 0 on"),
+        ({"near": (1.0,)}, "near is (1.0,), expected two numbers"),
+        ({"planes": 2}, "planes is 2, expected a whole number from 3 to 36"),
+    ],
+)
+def test_options_that_cannot_be_are_refused(options: dict[str, Any], sentence: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(CONE.points()[:1000], **options)
+    assert str(caught.value) == sentence
+
+
+def test_few_points_are_refused() -> None:
+    with pytest.raises(ParameterError, match="source has 7 points, expected at least 100"):
+        tower_axis(CONE.points()[:7])
+
+
+def test_scans_repeat_and_do_not_depend_on_how_they_are_read() -> None:
+    scan = Scan(Tower(height=20.0), count=5000, noise=(0.002, 0.002), outliers=0.02, seed=5)
+    assert np.array_equal(scan.points(), scan.points())
+    assert scan.points().shape == (5000, 3)
+    other = Scan(Tower(height=20.0), count=5000, noise=(0.002, 0.002), outliers=0.02, seed=6)
+    assert not np.array_equal(scan.points(), other.points())

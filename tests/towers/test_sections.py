@@ -1,0 +1,77 @@
+"""Planar sections: towers, tunnels, pipes; and how walls are thinned."""
+
+import numpy as np
+import pytest
+import shapely
+
+from midrib import minimal_radii
+from midrib.errors import ParameterError
+from midrib.towers.sections import section
+from midrib.towers.thinning import average_depth, moving_least_squares
+from midrib.types import Floats
+from tests.towers.scans import CONE
+
+
+def tunnel() -> Floats:
+    """A bent tunnel with flat walls, 6 wide, along a sine."""
+    random = np.random.default_rng(2)
+    y = random.uniform(0.0, 60.0, 30_000)
+    x = 3.0 * np.sin(y / 20.0) + random.choice([-3.0, 3.0], y.size)
+    strays = random.uniform([-8.0, 0.0, 0.0], [8.0, 60.0, 4.0], (100, 3))
+    return np.concatenate([np.column_stack([x, y, random.uniform(0.0, 4.0, y.size)]), strays])
+
+
+def test_axis_of_a_tunnel_runs_along_its_middle() -> None:
+    cut = section(tunnel(), (0, 0, 2), (0, 0, 1), thickness=1.0, interval=0.5, along=(0, 1, 0))
+    curve = minimal_radii(cut.strip, ends="caps", centring="symmetric")
+    axis = shapely.get_coordinates(cut.in_space(curve.line), include_z=True)
+    inner = axis[(axis[:, 1] > 3.0) & (axis[:, 1] < 57.0)]
+    assert np.abs(inner[:, 0] - 3.0 * np.sin(inner[:, 1] / 20.0)).max() < 0.05
+    assert inner[:, 2] == pytest.approx(2.0)
+
+
+def test_upright_section_of_a_cone_has_its_walls() -> None:
+    cut = section(CONE.points(), (0, 0, 0), (0, 1, 0), thickness=0.3, interval=0.5)
+    u, v = shapely.get_coordinates(cut.main).T
+    assert np.abs(cut.along) == pytest.approx([0.0, 0.0, 1.0], abs=0.05)
+    assert np.ptp(v) == pytest.approx(40.0, abs=1.0)
+    assert np.abs(u).mean() == pytest.approx(2.0, abs=0.1)
+    assert cut.strip.area.is_valid
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"thickness": 0.0}, "thickness is 0.0, expected a length above 0"),
+        ({"normal": (0, 0, 0)}, "normal has no length, expected a direction"),
+        ({"normal": (0, 1)}, r"normal is \(0, 1\), expected three numbers"),
+        ({"point": (99, 99, 99)}, "the section has 0 points"),
+    ],
+)
+def test_sections_that_cannot_be_are_refused(options: dict[str, object], sentence: str) -> None:
+    usual: dict[str, object] = {"point": (0, 0, 0), "normal": (0, 1, 0)}
+    usual |= {"thickness": 0.3, "interval": 0.5}
+    with pytest.raises(ParameterError, match=sentence):
+        section(CONE.points(), **(usual | options))  # type: ignore[arg-type]
+
+
+def test_moving_least_squares_keeps_straight_lines() -> None:
+    v = np.random.default_rng(3).uniform(0.0, 10.0, 500)
+    wall = moving_least_squares(np.column_stack([1.0 + 0.3 * v, v]), 0.25)
+    assert wall[:, 0] == pytest.approx(1.0 + 0.3 * wall[:, 1], abs=1e-12)
+    assert np.diff(wall[:, 1]) == pytest.approx(0.25)
+
+
+def test_moving_least_squares_leaves_strays_out() -> None:
+    random = np.random.default_rng(3)
+    v = random.uniform(0.0, 10.0, 2000)
+    u = random.normal(0.0, 0.002, v.size)
+    u[::40] += 0.5
+    wall = moving_least_squares(np.column_stack([u, v]), 0.25)
+    assert np.abs(wall[:, 0]).max() < 0.002
+
+
+def test_average_depth_takes_every_point_once() -> None:
+    points = np.array([[0.0, 0.0], [0.0, 0.004], [0.002, 0.008], [0.0, 0.02], [0.0, 0.5]])
+    thinned = average_depth(points, 0.01)
+    assert thinned == pytest.approx(np.array([[0.002 / 3, 0.004], [0.0, 0.02], [0.0, 0.5]]))
