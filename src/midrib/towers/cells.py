@@ -29,6 +29,7 @@ COARSE, FINE = (0.30, 0.002), (0.10, 0.0005)  # metres: reach, width of a bin
 WINDOW = 0.036  # metres
 ENOUGH = 8  # points of a cell, of large clouds
 FULL = 24  # points a cell should have on average: small clouds get larger cells
+ROWS = 2000  # cells that are thinned together
 SKIPPED = 2.5  # standard deviations from the median beyond which points do not count
 THIN = 0.3  # metres: thinner towers have everything in proportion
 
@@ -186,16 +187,31 @@ def thinned(
     bins: tuple[float, float, int],
 ) -> Cells:
     """One distance for each cell of a cube."""
-    low, width, window = bins
     level, sector = np.nonzero(counts.sum(axis=2) >= grid.enough)
-    counts = counts[level, sector].astype(np.float64)
-    sums = sums[level, sector].astype(np.float64)
     if not level.size:
         msg = (
             f"no tower was found: no part of the best shell has {grid.enough} points; near= and "
             "radius= say where it is and how thick"
         )
         raise ParameterError(msg)
+    # A few rows at a time: copies of the whole cube in doubles would take most of the memory.
+    parts = []
+    for k in range(0, level.size, ROWS):
+        rows = level[k : k + ROWS], sector[k : k + ROWS]
+        parts.append(distances(counts[rows], sums[rows], bins))
+    d, total, spread = (np.concatenate(column) for column in zip(*parts, strict=True))
+    m = moments[level, sector]
+    azimuth = sector * 2.0 * np.pi / grid.n_sectors + m[:, 0] / m[:, 2]
+    cells = Cells(level, sector, m[:, 1] / m[:, 2], azimuth, d, total, spread, reference, grid)
+    return cells.where(total >= grid.enough)
+
+
+def distances(
+    counts: "Floats", sums: "Floats", bins: tuple[float, float, int]
+) -> "tuple[Floats, Floats, Floats]":
+    """Distance, number of points and spread of each row of bins."""
+    low, width, window = bins
+    counts, sums = counts.astype(np.float64), sums.astype(np.float64)
     first = densest(counts, window)
     columns = np.arange(counts.shape[1])
     inside = (columns >= first[:, None]) & (columns < first[:, None] + window)
@@ -206,10 +222,7 @@ def thinned(
     total = kept.sum(axis=1)
     bin_middle = low + (columns + 0.5) * width
     d = (kept @ bin_middle + np.where(keep, sums, 0.0).sum(axis=1)) / np.maximum(total, 1.0)
-    m = moments[level, sector]
-    azimuth = sector * 2.0 * np.pi / grid.n_sectors + m[:, 0] / m[:, 2]
-    cells = Cells(level, sector, m[:, 1] / m[:, 2], azimuth, d, total, spread, reference, grid)
-    return cells.where(total >= grid.enough)
+    return d, total, spread
 
 
 def densest(counts: "Floats", window: int) -> "Ints":

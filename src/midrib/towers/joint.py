@@ -6,7 +6,7 @@ n         outward normal of the shell in the section: the cell's azimuth, or its
 
 A cell that is d beyond the reference shell (x₀, y₀, r₀) tells
 
-    d = n · (x - x₀, y - y₀) + (r - r₀) - r r' n · (x - x₀, y - y₀)'  [+ e cos 2θ + f sin 2θ]
+    d = n · (x - x₀, y - y₀) + (r - r₀) + r r' n · (x - x₀, y - y₀)'  [+ e cos 2θ + f sin 2θ]
 
 The third term is the tapered shell's: its foot moves along the axis when the axis turns.
 Where only a part of the shell is seen, x and r cannot be told apart level by level; the stiff taper
@@ -227,7 +227,7 @@ def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
     ahead, behind = cells.reference.at(cells.s + step), cells.reference.at(cells.s - step)
     taper = (ahead[:, 2] - behind[:, 2]) / (2.0 * step)
     lever = (reference[:, 2] * taper)[:, None]
-    along = csr_array(model.axis.design(cells.s) - lever * model.axis.design(cells.s, 1))
+    along = csr_array(model.axis.design(cells.s) + lever * model.axis.design(cells.s, 1))
     parts = [along.multiply(normal[:, :1]), along.multiply(normal[:, 1:])]
     parts.append(csr_array(model.taper.design(cells.s)))
     if model.oval is not None:
@@ -235,7 +235,7 @@ def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
         double = 2.0 * cells.azimuth[:, None]
         parts += [oval.multiply(np.cos(double)), oval.multiply(np.sin(double))]
     known = cells.d + reference[:, 2]
-    known = known + (normal * (reference[:, :2] - lever * reference[:, 3:5])).sum(axis=1)
+    known = known + (normal * (reference[:, :2] + lever * reference[:, 3:5])).sum(axis=1)
     return csr_array(hstack(parts)), known
 
 

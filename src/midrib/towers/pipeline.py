@@ -37,6 +37,7 @@ BEYOND = 0.02  # of the height: the tower may go on where the sample has few poi
 MOST_OFF = (0.05, 0.012)  # of the radius, metres: a section whose points are farther off is another
 BETTER = 0.6  # times as far off points are if the tower has faces
 MOVED = 1e-4  # metres: fine cells are counted anew if their reference was off by more
+MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
 
 
@@ -165,7 +166,8 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
         fit = fit_cells(cells, unit)
         used = cells.s[fit.weight > 0.0]
         moved = np.abs(fit.values(used) - reference.at(used)[:, :3]).max(initial=0.0)
-        if moved < MOVED * unit or cells.grid.enough < 4:
+        noise = float(np.median(np.abs(fit.residual)))
+        if moved < max(MOVED * unit, MOVED_SHARE * noise) or cells.grid.enough < 4:
             break
     return gated(cells, fit, unit)
 
