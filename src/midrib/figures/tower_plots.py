@@ -97,6 +97,7 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     axes.axvline(0.0, color=TEXT, lw=0.4)
     axes.set_aspect("equal", adjustable="datalim")
     axes.margins(0.12)
+    axes.locator_params(nbins=6)  # numbers of more places would touch
     finish(axes, "x (east), mm", "y (north), mm")
 
 
