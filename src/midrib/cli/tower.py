@@ -1,5 +1,7 @@
 """The command ``midrib tower``."""
 
+from typing import Any
+
 import typer
 
 from midrib.cli import options as cli
@@ -45,7 +47,7 @@ def tower(
     report = Report(quiet=quiet)
     report.start(lambda: None)
 
-    def track(chunks, doing):  # type: ignore[no-untyped-def]
+    def track(chunks: Any, doing: str) -> Any:
         return report.track(chunks, cloud.count, len, doing)
 
     axis = axis_of(cloud, options, track)
