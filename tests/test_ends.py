@@ -129,3 +129,34 @@ def test_the_flank_of_an_oblique_end_is_no_cap(degrees: float, flip: float) -> N
 def test_a_wide_end_with_depth_behind_it_is_a_cap() -> None:
     trumpet = [(0, 2.5), (40, 2.5), (50, 0), (50, 6), (40, 3.5), (0, 3.5)]
     assert line_ends(Polygon(trumpet)) == [(0.0, 3.0), (50.0, 3.0)]
+
+
+def right_end(area: Polygon) -> tuple[float, float]:
+    """The farther end to the right of the line of an area."""
+    points = shapely.get_coordinates(collapse(area))
+    x, y = points[np.argmax(points[:, 0])]
+    return float(x), float(y)
+
+
+@pytest.mark.parametrize("degrees", range(50, 171, 10))
+def test_a_gable_ends_in_its_apex(degrees: int) -> None:
+    """Not in the middle of the one facet of two."""
+    apex = 20.0 + 1.0 / np.tan(np.radians(degrees) / 2.0)
+    area = Polygon([(0, -1), (20, -1), (apex, 0), (20, 1), (0, 1)])
+    assert right_end(area) == pytest.approx((apex, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("facets", range(2, 13))
+def test_an_end_of_several_facets_is_on_the_axis(facets: int) -> None:
+    angle = np.linspace(-np.pi / 2.0, np.pi / 2.0, facets + 1)
+    arc = np.column_stack([20.0 + np.cos(angle), np.sin(angle)])
+    assert right_end(Polygon([(0, -1), *arc, (0, 1)]))[1] == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("chamfer", np.linspace(0.1, 0.9, 9))
+def test_a_chamfered_end_is_on_the_axis(chamfer: float) -> None:
+    c = float(chamfer)
+    area = Polygon([(0, -1), (20 - c, -1), (20, c - 1), (20, 1 - c), (20 - c, 1), (0, 1)])
+    assert right_end(area) == pytest.approx((20.0, 0.0), abs=1e-6)
+    single = Polygon([(0, -1), (20 - c, -1), (20, c - 1), (20, 1), (0, 1)])
+    assert abs(right_end(single)[1]) <= 0.501 * c

@@ -6,7 +6,7 @@ r"""The two ends of an area: where a person would say that it begins and ends.
      CAP  p------q   a straight run that both banks meet at 35 to 145 degrees: the end is its
           |      |   middle, and the run belongs to neither curve; a run longer than two mean
           |      |   widths only if they meet it alike and the area behind it is about half as deep
-          |      |   as it is long, or deeper
+          |      |   as it is long, or deeper; and no other such run beside it that is as long
      TIP    /\\      two straight-ish banks that meet at less than 60 degrees: the end is the
                     vertex, or the middle of the short run that cuts it off
      POINT (    )    anything else: the end is the point of the boundary from which equal ways
@@ -40,7 +40,10 @@ STRAIGHT = 2.0**-20  # a run is straight if it bends by less than this share of 
 LEAST_CORNER = np.cos(np.radians(35.0))  # banks meet a cap at 35 to 145 degrees
 ASKEW = 1.0  # sum of the cosines at which two banks meet a run: 30 degrees off square on average
 LEAST_CAP = 0.25  # of the mean width
-LEAST_BLUNT = 2.0**-6  # of the mean width: what cuts a tip off, and is no roughness
+LEAST_BLUNT = 2.0**-12  # of the mean width: what cuts a tip off
+AS_LONG = 0.5  # of a run: a lid beside it that is longer is a part of the same end
+FACETS = 3  # shorter runs between two that make an end
+ALONG = 0.5  # cosine: banks that differ by less than 60 degrees hold one end between them
 LONG_CAP = 2.0  # mean widths: the cap of a wedge is no longer
 LEAST_DEPTH = 0.45  # of a long cap: real flanks have less behind their middles, waists more
 TIP_CHORD = 1.0  # chord over arm at 60 degrees
@@ -222,6 +225,34 @@ def is_cap(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> b
 
 
 @njit(borrows=True)
+def is_facet(x: Floats, y: Floats, arc: Floats, p: int, q: int, width: float) -> bool:
+    """Whether the lid from vertex p on to vertex q is only one facet of an end, as of a gable.
+
+    Then there is a lid beside it, hardly shorter or longer, and the banks beyond both run alike.
+    """
+    least = AS_LONG * length(x[q] - x[p], y[q] - y[p])
+    for step in (-1, 1):
+        near = p if step < 0 else q
+        far = straight_run(x, y, near, step)
+        for _ in range(FACETS):  # past shorter ones
+            if length(x[far] - x[near], y[far] - y[near]) >= least:
+                break
+            near, far = far, straight_run(x, y, far, step)
+        first, last = (far, near) if step < 0 else (near, far)
+        is_long = length(x[far] - x[near], y[far] - y[near]) >= least
+        if not (is_long and is_cap(x, y, arc, first, last, width)):
+            continue
+        first, last = (far, q) if step < 0 else (p, far)
+        arm = length(x[last] - x[first], y[last] - y[first]) / 2.0
+        ax, ay, _, _ = point_at(x, y, arc, arc[first] - arm)
+        bx, by, _, _ = point_at(x, y, arc, arc[last] + arm)
+        ux, uy, vx, vy = x[first] - ax, y[first] - ay, x[last] - bx, y[last] - by
+        if ux * vx + uy * vy >= ALONG * length(ux, uy) * length(vx, vy):
+            return True
+    return False
+
+
+@njit(borrows=True)
 def depth_behind(x: Floats, y: Floats, p: int, q: int, ux: float, uy: float) -> float:
     """How far along u from the middle of a run, vertex p to vertex q, the shell comes again."""
     n, depth = x.size, np.inf
@@ -257,7 +288,8 @@ def find_cap(
     if through != vertex:
         backward, forward = behind, through
         span = length(x[forward] - x[backward], y[forward] - y[backward])
-        if least <= span and is_cap(x, y, arc, backward, forward, width):
+        is_lid = least <= span and is_cap(x, y, arc, backward, forward, width)
+        if is_lid and not is_facet(x, y, arc, backward, forward, width):
             return backward, forward
     nearest, shortest, cap_p, cap_q = reach, np.inf, -1, -1
     for step in (1, -1):
@@ -267,7 +299,8 @@ def find_cap(
             span = length(x[far] - x[near], y[far] - y[near])
             p, q = (near, far) if step == 1 else (far, near)
             is_better = way < nearest or span < shortest
-            if least <= span and is_better and is_cap(x, y, arc, p, q, width):
+            is_lid = least <= span and is_better and is_cap(x, y, arc, p, q, width)
+            if is_lid and not is_facet(x, y, arc, p, q, width):
                 nearest, shortest, cap_p, cap_q = way, span, p, q
                 break
             near, way = far, way + span
