@@ -201,7 +201,8 @@ def cut_off_wedge(degrees: float, near: float, far: float) -> Polygon:
 
 @pytest.mark.parametrize("options", [{}, {"tolerance": 0.0}, {"centring": "symmetric"}], ids=str)
 @pytest.mark.parametrize(
-    ("degrees", "ratio"), [(10.0, 2.0), (10.0, 10.0), (10.0, 40.0), (30.0, 5.0), (30.0, 10.0)]
+    ("degrees", "ratio"),
+    [(10.0, 2.0), (10.0, 10.0), (10.0, 40.0), (30.0, 5.0), (30.0, 10.0), (30.0, 400.0)],
 )
 def test_a_wedge_cut_off_has_its_bisector(
     degrees: float, ratio: float, options: dict[str, Any]

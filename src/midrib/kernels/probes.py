@@ -73,7 +73,9 @@ def point_beside(
             break
         if tolerance == 0.0 and k == 0:
             end, x, y = kink_beside(mesh, banks, t, px, py, qx, qy, scale_x, scale_y)
-            if end >= 0:
+            to_p = length((x - px) * scale_x, (y - py) * scale_y)
+            to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
+            if end >= 0 and min(to_p, to_q) > apart_of(banks, tolerance):  # else it is p or q
                 return end, x, y
         hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
         for is_away in (False, True):

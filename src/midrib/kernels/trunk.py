@@ -40,7 +40,7 @@ from midrib.types import Floats, Ints
 __all__ = ["SHARE_OF_SLACK", "trace", "trace_trunk"]
 
 SHARE_OF_SLACK = 2.0**-24  # of the tolerance: what points of the trunk may be off it
-DEPTH = 12  # halvings of the way between two radii
+DEPTH = 16  # halvings of the way between two radii
 BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
 
 
