@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point, Polygon, box
 from shapely.affinity import affine_transform, rotate, scale, translate
 
-from midrib import add_widths, collapse, measures, minimal_radii, profile, split
+from midrib import Strip, add_widths, collapse, measures, minimal_radii, profile, split
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
 from tests.shapes import NAMED, VALID, wavy_ribbon
@@ -167,3 +167,16 @@ def test_m_keeps_index_and_crs() -> None:
     assert list(measured.index) == ["a", "b"]
     assert measured.crs == series.crs
     assert shapely.has_m(measured.to_numpy()).all()
+
+
+def test_sides_are_told_where_both_ends_are_beside_one_vertex_of_a_curve() -> None:
+    """Round the inner corner of an L both ends have the same nearest point of the inner bank."""
+    area = Polygon([(0, 0), (10, 0), (10, 10), (8, 10), (8, 2), (0, 2)])
+    inner, outer = LineString([(0, 2), (8, 2), (8, 10)]), LineString([(0, 0), (10, 0), (10, 10)])
+    line = LineString([(8.2, 0.9), (9, 1.1), (9.2, 1.8)])
+    strip = Strip(inner, outer, area)
+    there, back = profile(line, strip), profile(shapely.reverse(line), strip)
+    assert there.to_left.tolist() == back.to_right.tolist()[::-1]
+    assert there.to_left == pytest.approx(
+        [inner.distance(p) for p in shapely.points(shapely.get_coordinates(line))]
+    )

@@ -159,10 +159,13 @@ def banks(line: LineString, strip: Strip) -> tuple[LineString, LineString]:
     """Return the curves on the left and on the right of a line through a strip."""
     main, auxiliary = (shapely.get_coordinates(c) for c in (strip.main, strip.auxiliary))
     turns_left = shapely.is_ccw(shapely.linearrings(np.concatenate([main, auxiliary[::-1]])))
-    first, last = shapely.line_locate_point(
-        strip.main, shapely.points(line.coords[0:1] + line.coords[-1:])
+    # Where both ends are beside one vertex of the one curve, the other tells.
+    curves, ends = (
+        np.array([[strip.main], [strip.auxiliary]]),
+        shapely.points(line.coords[0:1] + line.coords[-1:]),
     )
-    if turns_left == (first <= last):
+    ahead = np.diff(shapely.line_locate_point(curves, ends, normalized=True), axis=1).sum()
+    if turns_left == (ahead >= 0.0):
         return strip.auxiliary, strip.main
     return strip.main, strip.auxiliary
 
