@@ -179,6 +179,13 @@ def test_dxf_tells_how_far_it_reaches(document: Document) -> None:
     assert (high - low <= 20.0 * (bounds[1] - bounds[0])).all()  # notes are long
 
 
+def test_a_plotter_puts_the_drawing_on_the_sheet(document: Document) -> None:
+    """The map's lower left corner, at scale, is a margin off that of the sheet."""
+    low, _ = drawing(POLAND).bounds
+    base = np.array(document.header["$PINSBASE"])[:2]
+    assert base + low * document.header["$PSVPSCALE"] == pytest.approx(10.0 / 1000.0, abs=1e-6)
+
+
 def test_dxf_strokes_have_the_heights_of_the_edges(tmp_path: Path) -> None:
     """From 172 to 173 along the top, 170 to 171 along the toe; a short stroke ends halfway."""
     content = only(drawing(POLAND), "s1")

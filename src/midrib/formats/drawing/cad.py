@@ -178,6 +178,8 @@ def set_extents(document: "Document") -> None:
     found = extents(document.modelspace(), fast=True)
     if found.has_data:
         document.modelspace().reset_extents(found.extmin, found.extmax)
+        # The writer takes a corner at the origin for one that is not known.
+        document.header["$EXTMIN"], document.header["$EXTMAX"] = found.extmin, found.extmax
 
 
 def add_layout(document: "Document", drawing: "Drawing") -> None:
@@ -200,6 +202,8 @@ def add_layout(document: "Document", drawing: "Drawing") -> None:
         tuple(sheet / 1000.0 / drawing.metres_per_unit),
     )
     document.header["$PSVPSCALE"] = 1.0 / drawing.scale
+    margin = MARGIN / 1000.0 / drawing.metres_per_unit
+    document.header["$PINSBASE"] = (*(margin - low / drawing.scale), 0.0)
     document.set_modelspace_vport(
         height=1.1 * max(float(high[1] - low[1]), drawing.millimetre),
         center=tuple((low + high) / 2.0),
