@@ -168,8 +168,9 @@ def islands_of(strip: Strip) -> list[Polygon]:
     holes = [Polygon(ring) for ring in strip.area.interiors]
     if not strip.is_closed:
         return holes
-    edges = [Polygon(strip.main), Polygon(strip.auxiliary)]
-    return [hole for hole in holes if not any(map(hole.equals, edges))]
+    inner = min(strip.main, strip.auxiliary, key=lambda curve: Polygon(curve).area)
+    edge = min(holes, key=lambda hole: float(hole.exterior.hausdorff_distance(inner)))
+    return [hole for hole in holes if hole is not edge]
 
 
 def lines_of(on_top: Floats, on_toe: Floats, share: Floats) -> Any:
