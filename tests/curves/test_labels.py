@@ -220,3 +220,18 @@ def test_lines_that_will_not_do_are_refused() -> None:
         control_points(LineString([(0, 0), (2, 2), (2, 0), (0, 2)]))
     with pytest.raises(InvalidAreaError, match="area does not cover the line"):
         control_points(LineString([(0, 0), (5, 5)]), area=box(0, 0, 4, 4))
+
+
+def test_rings_keep_three_corners() -> None:
+    ring = LineString([(0, 0), (4, 0), (4, 3), (0, 3), (0, 0)])
+    found = control_points(ring, count=2)
+    assert found.line.is_valid
+    assert found.line.is_closed
+    assert control_points(ring, tolerance=100.0).line.is_valid
+
+
+def test_rows_count_repeated_vertices() -> None:
+    line = LineString([(0, 0), (1, 0), (1, 0), (3, 1)])
+    found = control_points(line)
+    assert found.rows.tolist() == [0, 1, 3]
+    assert np.array_equal(np.array(line.coords)[found.rows], np.array(found.line.coords))

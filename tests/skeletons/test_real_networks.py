@@ -92,3 +92,13 @@ def test_rivers_and_lakes_are_divided_at_any_width(name: str, share: float) -> N
             )
             assert less.areas.difference(found.areas).area <= 1e-6 * area.area
     assert both >= (3 if share == 2.0 else 20)
+
+
+@pytest.mark.parametrize("width", [1_720.0, 2_000.0, 2_255.0])
+def test_a_cut_through_a_vertex_of_the_skeleton_leaves_a_line(width: float) -> None:
+    """The vertex was beyond the cut by the last place of its degrees: a way without length."""
+    frame = geopandas.read_parquet(FOLDER / "geomaps_rivers_americas_poland.parquet")
+    area = frame.geometry[796]
+    parts, problems = partial_collapse(area, width, geographic=True, on_error="report")
+    assert [problem.status for problem in problems] == ["repaired"]
+    assert shapely.area(parts.areas) < area.area

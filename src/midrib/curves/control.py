@@ -6,7 +6,7 @@ run before it was divided at: so those worth more than a tolerance are what Doug
 keep, for every tolerance at once.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -107,6 +107,7 @@ def control_points(
     check_flag(geographic, "geographic")
     if isinstance(line, Curve):
         line, area = line.line, line.strip.area if area is None else area
+    own = first_of_repeats(line)
     line = checked_curve(line, "line")
     area = None if area is None else area_of_one(area, "area")
     check_line(line, area)
@@ -123,9 +124,16 @@ def control_points(
     for level in levels[first:]:
         rows = np.flatnonzero(importance >= level)
         chosen = LineString(shapely.get_coordinates(line, include_z=line.has_z)[rows])
-        if chosen.is_simple and (area is None or area.covers(chosen)):
-            return ControlPoints(chosen, rows, importance[rows])
-    return ControlPoints(line, np.arange(len(points)), importance)
+        is_whole = chosen.is_valid and chosen.is_simple  # a ring needs three
+        if is_whole and (area is None or area.covers(chosen)):
+            return ControlPoints(chosen, own[rows], importance[rows])
+    return ControlPoints(line, own, importance)
+
+
+def first_of_repeats(line: Any) -> Ints:
+    """Rows of the vertices of a line without those that repeat the one before."""
+    points = shapely.get_coordinates(line)
+    return np.flatnonzero(np.append(True, (points[1:] != points[:-1]).any(axis=1)))
 
 
 def check_line(line: LineString, area: Polygon | None) -> None:

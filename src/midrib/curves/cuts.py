@@ -25,6 +25,7 @@ __all__ = ["Cut", "Edge", "cut_across", "edge_of", "pieces_of"]
 
 SEEN = 1.5  # times the radius: where contacts are looked for; the nearest one on either side counts
 AT_VERTEX = 2.0**-36  # of the extent: a contact this near to a vertex is the vertex
+ROUNDING = 2.0**-46  # of the coordinates: a vertex so little beyond a cut is on it
 INWARDS = (0.0, 1.0, 4.0, 16.0, 64.0)  # roundings of a coordinate, to come inside
 
 
@@ -88,7 +89,8 @@ def cut_across(edge: Edge, way: Floats, radius: float) -> Cut | None:
         along = shapely.line_locate_point(line, shapely.points(met))
         at = float(along.min())
         reached = np.append(0.0, np.cumsum(np.hypot(*np.diff(way, axis=0).T)))
-        beyond = int(np.count_nonzero(reached > at * (1.0 + 2.0**-40)))
+        rounding = ROUNDING * (at + np.abs(way).max())
+        beyond = int(np.count_nonzero(reached > at + rounding))
         if beyond:
             crossing, kept = met[np.argmin(along)], beyond
     if not edge.area.covers(LineString([ends[0], crossing, ends[1]])):
