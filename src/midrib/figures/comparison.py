@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = ["COLOURS", "draw_comparison"]
 
+FINE, STEP = 0.25, 0.15  # millimetres: the finest of several lines, how much wider the next one is
 COLOURS = ("#111111", "#d1495b", "#2e86ab", "#1e9e58", "#e08a00", "#8e44ad", "#00a3b4", "#7a5c3e")
 TITLE, GAP, FOOTER = 7.0, 4.0, 6.0  # millimetres
 FLAT = 2.2  # width over height from which on panels stand below each other
@@ -127,15 +128,16 @@ def draw_row(axes: "Axes", comparison: "Comparison", row: "Compared") -> None:
 
 
 def draw_all(axes: "Axes", rows: "list[Compared]") -> None:
-    """Draw all lines, named for the legend."""
+    """Draw all lines, named for the legend; each is wider than those that lie on it."""
     title(axes, "all", "")
-    for row, colour in zip(rows, colours_of(rows), strict=True):
+    widths = FINE + STEP * np.arange(len(rows))[::-1]
+    for row, colour, width in zip(rows, colours_of(rows), widths, strict=True):
         if row.line is not None:
             points = shapely.get_coordinates(row.line)
             axes.plot(
                 *points.T,
                 color=colour,
-                lw=0.3 / POINT,
+                lw=width / POINT,
                 label=row.method,
                 scalex=False,
                 scaley=False,
