@@ -405,9 +405,9 @@ Tolerance: TypeAlias = Annotated[
     str | None,
     of_line(
         metavar="LENGTH|PERCENT",
-        help="How far off the middle a centred line may be, 1% of the mean width unless you say "
-        "otherwise; of other lines how far off the limit of ever denser radii. A length, or a "
-        "share of the width: 1%.",
+        help="How far off the middle a centred line may be where it is probed, a quarter of the "
+        "width apart; 1% of the mean width unless you say otherwise, 0 for exact lines. Of other "
+        "lines how far off the limit of ever denser radii. A length, or a share of the width: 1%.",
     ),
 ]
 MeanOption: TypeAlias = Annotated[

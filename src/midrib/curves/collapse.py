@@ -106,8 +106,8 @@ def collapse(
         it takes only a little: give ``simplify`` too for wide bows.
     **options
         Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
-        ``centring`` is ``"centred"`` and ``end_clearance`` None; with ``centring="none"`` ``skip``
-        is ``"bays"``, unless a ``tolerance`` chooses the stations.
+        ``centring`` is ``"centred"`` and, only with that, ``end_clearance`` None; with
+        ``centring="none"`` ``skip`` is ``"bays"``, unless a ``tolerance`` chooses the stations.
 
     Returns
     -------
