@@ -276,3 +276,14 @@ def test_touching_rings_are_refused() -> None:
     outer = LineString([(0, 0), (9, -3), (9, 9), (-3, 9), (0, 0)])
     with pytest.raises(InvalidAreaError, match=r"touch at \(0, 0\)"):
         hatch(Strip(inner, outer))
+
+
+def test_no_stroke_is_added_through_islands_and_zones() -> None:
+    island, zone = box(5, 1, 7, 3), box(9, 1, 10, 3)
+    area = Polygon(box(0, 0, 12, 4).exterior, [island.exterior])
+    strip = Strip(LineString([(0, 4), (12, 4)]), LineString([(0, 0), (12, 0)]), area)
+    hatching = hatch(strip, scale=500, exclude=zone)
+    for x in (6.1, 9.6):
+        with pytest.raises(ParameterError, match="would enter an island or an excluded zone"):
+            add_stroke(hatching, (x, 4.0))
+    assert len(add_stroke(hatching, (3.1, 4.0)).strokes) == len(hatching.strokes) + 1

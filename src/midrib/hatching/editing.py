@@ -8,7 +8,7 @@ import shapely
 
 from midrib.checks import shown
 from midrib.errors import ParameterError
-from midrib.hatching.finishing import lines_of
+from midrib.hatching.finishing import islands_of, lines_of
 from midrib.hatching.hatch import Hatching, gaps_between
 from midrib.hatching.laying import Ground
 from midrib.kernels.chords import ON_TOE, ON_TOP
@@ -48,7 +48,8 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
     Raises
     ------
     ParameterError
-        If no stroke leads through the point, or it would meet another stroke.
+        If no stroke leads through the point, or it would meet another stroke, an island of the
+        slope or a zone that no stroke may enter.
 
     Examples
     --------
@@ -62,6 +63,10 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
     station, on_top, on_toe = stroke_through(ground, point)
     share = 1.0 if is_long else hatching.rule.short_ratio
     line = lines_of(on_top[None], on_toe[None], np.array([share]))
+    barred = [*islands_of(hatching.strip), *(() if hatching.zones is None else (hatching.zones,))]
+    if shapely.intersects(line[0], np.array(barred, dtype=object)).any():
+        msg = f"a stroke through {place_text(point)} would enter an island or an excluded zone"
+        raise ParameterError(msg)
     segments = np.concatenate([ends_of(hatching), np.append(on_top, on_toe)[None]])
     n = len(hatching.strokes)
     hits = meet(segments, np.arange(n), np.full(n, n))

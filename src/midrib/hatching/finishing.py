@@ -14,7 +14,7 @@ from midrib.hatching.rule import Rule
 from midrib.strip import Strip
 from midrib.types import Bools, Floats
 
-__all__ = ["Finished", "Problem", "finish", "lines_of", "zones_of"]
+__all__ = ["Finished", "Problem", "finish", "islands_of", "lines_of", "zones_of"]
 
 TINY = 2.0**-1000
 LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other

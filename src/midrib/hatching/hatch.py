@@ -1,6 +1,6 @@
 """Hatching a slope: strokes from its top to its toe that never cross."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -68,6 +68,7 @@ class Hatching:
     station: "Floats"
     share: "Floats"
     ground: Ground | None = field(repr=False, default=None)  # for editing
+    zones: Any = field(repr=False, default=None)  # that no stroke may enter
 
     def __repr__(self) -> str:
         """Show what there is of it."""
@@ -229,9 +230,10 @@ def hatch(
         )
     edges = None if where is None else where.middle.edges
     finished = finish(drawn, ground, least, first, zones, strip, edges)
-    return assemble(
+    made = assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )
+    return replace(made, zones=zones)
 
 
 def assemble(
