@@ -40,6 +40,9 @@ def test_a_rectangle_has_its_name_in_the_middle() -> None:
     assert found.lines.length == pytest.approx(24.0)
     assert shapely.get_coordinates(found.lines)[:, 1] == pytest.approx(2.0)
     assert len(found.lines.coords) == 2
+    for x, y in ((0, 0), (10, 3), (1000, 500)):
+        ends = shapely.get_coordinates(check(box(x, y, x + 30, y + 4), length=12.0).lines)
+        assert ends[:, 0] - x == pytest.approx([9.0, 21.0], abs=1e-3)
 
 
 def test_one_of_length_and_height_makes_the_other_as_large_as_it_can_be() -> None:

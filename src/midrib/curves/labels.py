@@ -26,7 +26,8 @@ DEGREES = (1, 2, 3)
 PLAINER = (1.0, 0.95, 0.9)  # what a size counts by degree: a tenth more is worth two bends
 BENT, LEAST_LIKED = 0.3, 0.1  # less for a curve that turns by 90 degrees in all, and at the least
 POINTS = 25  # of a line
-LENGTHS, PLACES = 14, 28  # tried: lengths of a stretch, and its places
+LENGTHS, PLACES = 14, 29  # tried: lengths of a stretch, and its places, one in the very middle
+TIED = 1e-6  # relative: sizes that differ by less are alike
 SHORTEST = 1.0 / 64.0  # of the trunk
 LONGER = 1.06  # a stretch of trunk than the line it makes
 TIGHTEST = 1.5  # heights of text: the least radius that it is bent with
@@ -80,8 +81,8 @@ def best_label(area: Polygon, trunk: LineString, scale: Scale, wanted: Wanted) -
         straightness = 1.0 - BENT * (np.abs(turn).sum(axis=1) / np.radians(90.0)) ** 2
         liking = np.array(PLAINER)[tried.degree - 1] * np.maximum(straightness, LEAST_LIKED)
         size = sizes(lengths, heights, wanted) * liking
-        k = int(np.argmax(size))
-        if size[k] > most:
+        k = most_central(size, tried.middle)
+        if size[k] > most * (1.0 + TIED):
             most, height = float(size[k]), height_of(lengths[k], heights[k], wanted)
             best = points[k] if tried.degree[k] > 1 else points[k][[0, -1]]
         tried = nearer(tried, k, spread, wanted)
@@ -92,6 +93,12 @@ def best_label(area: Polygon, trunk: LineString, scale: Scale, wanted: Wanted) -
         best = cut_to(best[None], wanted.aspect * height)[0][0]
         height = min(height, 2.0 * LineString(best).distance(boundary))
     return Label(reading(best / np.array(scale), area), height)
+
+
+def most_central(size: Floats, middle: Floats) -> int:
+    """Return the largest candidate, of several alike the one in the middle of them."""
+    tied = np.flatnonzero(size >= (1.0 - TIED) * size.max())
+    return int(tied[np.argmin(np.abs(middle[tied] - middle[tied].mean()))])
 
 
 def first_tried(trunk: float, wanted: Wanted) -> Tried:
