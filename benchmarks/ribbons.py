@@ -310,6 +310,7 @@ What is left, by position in its layer:
 
 """
 SQUARE = "a wide flat end: the line leads to its middle, the medial axis into its corners"
+LAKE = "a lake with 25 islands"
 FIELD = "a square field with 14 buildings, no strip"
 TOUCH = "a hole that touches a flat end: half of it goes with either bank"
 OPEN = "straight across open water beside an island, where probes lead back to points it has"
@@ -320,6 +321,7 @@ CAUSES = {
     (ROADS, 140): SQUARE,
     (ROADS, 192): NARROW,
     (ROADS, 225): SQUARE,
+    (ROADS, 255): NARROW,
     (ROADS, 429): SQUARE,
     (ROADS, 447): FIELD,
     (ROADS, 836): TOUCH,
@@ -329,7 +331,7 @@ CAUSES = {
     (JUNCTIONS, 400): THREAD,
     (JUNCTIONS, 494): SQUARE,
     ("rivers and lakes, simplified", 351): OPEN,
-    ("rivers and lakes, simplified", 435): TOUCH,
+    ("rivers and lakes, simplified", 560): LAKE,
 }
 REAL = """\
 ## Real areas
