@@ -16,6 +16,8 @@ from typing import Any, TypeVar
 
 import numba as nb
 
+from midrib.kernels.whole import PartCompiler, WholeCompiler
+
 __all__ = ["cache_folder", "njit"]
 
 
@@ -40,7 +42,9 @@ def cache_folder() -> Path:
 
 
 CACHE_FOLDER = str(cache_folder())
-WITHIN = {"cache": False, "nogil": False, "no_cpython_wrapper": True}
+WITHIN = {
+    "cache": False, "nogil": False, "no_cpython_wrapper": True, "pipeline_class": PartCompiler
+}  # fmt: skip
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
@@ -77,6 +81,7 @@ def njit(
         # A fifth of the time to compile went into doors to Python and C that nobody uses.
         "no_cpython_wrapper": not entry,
         "no_cfunc_wrapper": True,
+        "pipeline_class": WholeCompiler if entry else PartCompiler,
     }
 
     def compiled(kernel: Kernel) -> Kernel:
