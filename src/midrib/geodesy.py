@@ -7,9 +7,9 @@ import numpy as np
 
 from midrib.errors import InvalidAreaError
 from midrib.layout import Scale
-from midrib.types import Floats
+from midrib.types import Bools, Floats
 
-__all__ = ["degree_lengths", "lengths_at"]
+__all__ = ["degree_lengths", "is_beyond_pole", "lengths_at"]
 
 SEMI_MAJOR = 6378137.0
 FLATTENING = 1.0 / 298.257223563
@@ -34,6 +34,12 @@ def degree_lengths(bounds: Floats) -> Scale:
         raise InvalidAreaError(msg)
     across, along = lengths_at(np.array((low + high) / 2.0))
     return float(across), float(along)
+
+
+def is_beyond_pole(bounds: Floats) -> Bools:
+    """Whether bounds (rows of x low, y low, x high, y high) reach beyond a pole."""
+    beyond: Bools = (bounds[:, 1] < -POLE) | (bounds[:, 3] > POLE)
+    return beyond
 
 
 def lengths_at(latitude: Floats) -> tuple[Floats, Floats]:

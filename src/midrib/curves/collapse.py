@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import shapely
@@ -14,29 +14,24 @@ from midrib import interrupts
 from midrib.checks import check_flag, shown
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
-from midrib.curves.finding import Finder, Found
+from midrib.curves.finding import Finder
+from midrib.curves.lines import Part, lines_of, polygons_of
 from midrib.curves.methods import finder_of
 from midrib.curves.taking import as_array, take
+from midrib.curves.usual import threads_to_use
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
-    InvariantError,
     MidribError,
     ParameterError,
     RepairedAreaWarning,
     TooManyStationsError,
 )
-from midrib.geodesy import degree_lengths
-from midrib.layout import Scale
-from midrib.ragged import pack_areas, without_holes
+from midrib.ragged import without_holes
 from midrib.repair import overlaps, repaired
-from midrib.strip import PLANE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from midrib.ends import End
-    from midrib.types import Floats, Ints
 
     Areas = NDArray[np.object_]
 
@@ -73,6 +68,7 @@ def collapse(
     connect: bool = False,
     simplify: float | str | None = None,
     smooth: bool = False,
+    threads: int | None = None,
     **options: Any,
 ) -> Any:
     """Collapse areas to lines: one line without branches inside each.
@@ -104,6 +100,9 @@ def collapse(
     smooth : bool, default False
         Cut the line's corners, in three rounds; after simplification. Of a line with many vertices
         it takes only a little: give ``simplify`` too for wide bows.
+    threads : int, optional
+        How many of them share the work, unless options ask for something unusual; as many as
+        there are processors to use if it is not given. Lines are the same, bit by bit.
     **options
         Those of ``midrib.minimal_radii``. Unless you say otherwise ``ends`` is ``"caps"``,
         ``centring`` is ``"centred"`` and, only with that, ``end_clearance`` None; with
@@ -157,13 +156,13 @@ def collapse(
     check_on_error(on_error)
     check_connect(connect, along, options.get("ends", "caps"))
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
-    taken = take(areas, geographic)
+    taken, threads = take(areas, geographic), threads_to_use(threads)
     log = Log(taken.labels, strict=on_error == "raise")
     with interrupts.deferred():
         flat = taken.array.ravel()
         along = guides(along, flat.size)
         lines = collapse_all(
-            flat, find, along, taken.geographic, log, care,
+            flat, find, along, taken.geographic, log, care, threads,
             connect=connect, fills=options.get("holes") == "ignored",
         )  # fmt: skip
     result = taken.given_back(lines)
@@ -246,14 +245,6 @@ def guides(along: Any, count: int) -> "Areas | None":
     return np.broadcast_to(flat, (count,))
 
 
-class Part(NamedTuple):
-    """One polygon to collapse: the area it is of, its number there, itself."""
-
-    area: int
-    number: int
-    polygon: Polygon
-
-
 def collapse_all(
     areas: "Areas",
     find: Finder,
@@ -261,6 +252,7 @@ def collapse_all(
     geographic: bool,
     log: Log,
     care: Aftercare,
+    threads: int,
     *,
     connect: bool,
     fills: bool,
@@ -270,7 +262,9 @@ def collapse_all(
     lines: Areas = np.empty(areas.size, dtype=object)
     lines[:] = [empty_like(area) for area in areas]
     found: list[list[LineString]] = [[] for _ in range(areas.size)]
-    tended = lines_of_parts(parts, areas, find, along, geographic, log, care, connect=connect)
+    tended = lines_of_parts(
+        parts, areas, find, along, geographic, log, care, threads, connect=connect
+    )
     for part, line in zip(parts, tended, strict=True):
         if line is not None:
             found[part.area].append(line)
@@ -289,13 +283,14 @@ def lines_of_parts(
     geographic: bool,
     log: Log,
     care: Aftercare,
+    threads: int = 1,
     *,
     connect: bool,
 ) -> list[LineString | None]:
     """Return the line of each part after its care, None where it was refused."""
     if connect:
         return connected_lines(parts, areas, find, geographic, log, care)
-    lines = lines_of(parts, find, along, geographic, log)
+    lines = lines_of(parts, find, along, geographic, log, threads)
     return tend(lines, [part.polygon for part in parts], care, geographic=geographic)
 
 
@@ -373,7 +368,7 @@ def connected_lines(
     every = [*parts, *refused_parts(areas, log.refused - {part[:2] for part in parts})]
     plan = plan_joints(polygons_of(every), len(parts), geographic=geographic)
     prepared = [p._replace(polygon=area) for p, area in zip(parts, plan.areas, strict=False)]
-    lines = straightened(plan, lines_of(prepared, find, None, geographic, log, plan.ends))
+    lines = straightened(plan, lines_of(prepared, find, None, geographic, log, joints=plan.ends))
     lines = tend(lines, [part.polygon for part in prepared], care, geographic=geographic)
     lines, joined = make_joints(plan, lines)
     for row in joined:
@@ -389,72 +384,3 @@ def refused_parts(areas: "Areas", refused: set[tuple[int, int]]) -> Iterator[Par
             polygon = area.geoms[number] if isinstance(area, MultiPolygon) else area
             if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
                 yield Part(i, number, polygon)
-
-
-def polygons_of(parts: list[Part]) -> "Areas":
-    """Array of the polygons of parts."""
-    polygons: Areas = np.empty(len(parts), dtype=object)
-    polygons[:] = [part.polygon for part in parts]
-    return polygons
-
-
-def lines_of(
-    parts: list[Part],
-    find: Finder,
-    along: "Areas | None",
-    geographic: bool,
-    log: Log,
-    joints: "list[tuple[End, End] | None] | None" = None,
-) -> list[LineString | None]:
-    """Return the line of each part, None where it was refused."""
-    lines: list[LineString | None] = [None] * len(parts)
-    if not parts:
-        return lines
-    polygons = polygons_of(parts)
-    packed = pack_areas(polygons)
-    bounds = shapely.bounds(polygons) if geographic else None
-    for i, part in enumerate(parts):
-        interrupts.check()
-        guide = None if along is None else along[part.area]
-        try:
-            scale = PLANE if bounds is None else degree_lengths(bounds[i])
-            found = find_between(find, joints, i, *packed.rings(i), guide, scale)
-            check_finite(found)
-        except MidribError as error:
-            log.refuse(part.area, part.number, error)
-            continue
-        if found.loops:
-            log.note(part.area, part.number, "loops cut", f"{found.loops} loops cut")
-        if found.bays:
-            count = f"{found.bays} of {found.bays + found.stations} stations"
-            log.note(part.area, part.number, "bays left out", count)
-        points = found.points
-        if found.height is not None:
-            points = np.column_stack([points, found.height])
-        lines[i] = shapely.linestrings(points)
-    return lines
-
-
-def check_finite(found: Found) -> None:
-    """Refuse a line that tools would choke on."""
-    if not np.isfinite(found.points).all():
-        msg = "the line has a coordinate that is not finite, please report this area"
-        raise InvariantError(msg)
-
-
-def find_between(
-    find: Finder,
-    joints: "list[tuple[End, End] | None] | None",
-    i: int,
-    coordinates: "Floats",
-    offsets: "Ints",
-    guide: Any,
-    scale: Scale,
-) -> Found:
-    """Line of area i between the ends it is to have; where there is none, strike these out."""
-    if joints is not None and joints[i] is not None:
-        try:
-            return find(coordinates, offsets, guide, scale, joints[i])
-        except MidribError:
-            joints[i] = None
-    return find(coordinates, offsets, guide, scale)

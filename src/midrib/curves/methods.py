@@ -5,11 +5,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from midrib.checks import shown
-from midrib.curves.construction import CENTRED_WITHIN, Construction
+from midrib.curves.construction import Construction
 from midrib.curves.finding import Finder, Found, made
 from midrib.curves.skeletons import trunk_finder
+from midrib.curves.usual import usual_line
 from midrib.errors import ParameterError
-from midrib.kernels.collapsing import collapse_rings
 from midrib.layout import Scale
 from midrib.ragged import normalised
 from midrib.strip import divide
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from midrib.ends import End
     from midrib.types import Floats, Ints
 
-__all__ = ["OF_METHOD", "Method", "construction_of_collapse", "finder_of", "methods"]
+__all__ = ["OF_METHOD", "Method", "RadiiFinder", "construction_of_collapse", "finder_of", "methods"]
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,34 @@ def construction_of_collapse(**options: Any) -> Construction:
     return Construction(**(usual | options))
 
 
-def minimal_radii_finder(**options: Any) -> Finder:
+@dataclass(frozen=True)
+class RadiiFinder:
+    """Finds curves of minimal radii between the ends that the areas' shapes propose."""
+
+    construction: Construction
+    is_usual: bool  # whether one kernel does all of it
+
+    def __call__(
+        self,
+        coordinates: "Floats",
+        offsets: "Ints",
+        along: "LineString | None",
+        scale: Scale,
+        joints: "tuple[End, End] | None" = None,
+    ) -> Found:
+        """Return the line of one area."""
+        if self.is_usual and along is None and joints is None and coordinates.shape[1] == 2:
+            found = usual_line(coordinates, offsets, scale)
+            if found is not None:
+                return found
+        rings, height = normalised(coordinates, offsets)
+        strip = divide(rings, height, scale, along=along, ends=joints)
+        radii, path = self.construction.of(strip)
+        bays, stations = radii.bays.size, radii.stations.size
+        return Found(path.points, path.height, path.loops, bays, stations)
+
+
+def minimal_radii_finder(**options: Any) -> RadiiFinder:
     """Curve of minimal radii between the ends that the area's shape proposes."""
     construction = construction_of_collapse(**options)
     plain = {"ends": construction.ends, "end_clearance": construction.end_clearance}
@@ -66,25 +93,7 @@ def minimal_radii_finder(**options: Any) -> Finder:
     if construction.holes != "auxiliary":
         usual["holes"] = construction.holes  # those to be ignored are not there any more
     is_usual = (options | plain).items() <= usual.items()  # arrays would not compare
-
-    def find(
-        coordinates: "Floats",
-        offsets: "Ints",
-        along: "LineString | None",
-        scale: Scale,
-        joints: "tuple[End, End] | None" = None,
-    ) -> Found:
-        is_free = along is None and joints is None
-        if is_usual and is_free and coordinates.shape[1] == 2:
-            is_done, points, loops = collapse_rings(coordinates, offsets, CENTRED_WITHIN, *scale)
-            if is_done:
-                return Found(points, None, loops)
-        rings, height = normalised(coordinates, offsets)
-        radii, path = construction.of(divide(rings, height, scale, along=along, ends=joints))
-        bays, stations = radii.bays.size, radii.stations.size
-        return Found(path.points, path.height, path.loops, bays, stations)
-
-    return find
+    return RadiiFinder(construction, is_usual)
 
 
 MEAN_CURVES = ("proportional", "kinks")

@@ -17,7 +17,7 @@ from midrib.types import Floats, Ints
 __all__ = ["collapse_rings"]
 
 
-@njit(entry=True)
+@njit()
 def collapse_rings(
     coordinates: Floats, offsets: Ints, share: float, scale_x: float, scale_y: float
 ) -> tuple[bool, Floats, int]:

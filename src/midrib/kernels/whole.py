@@ -34,7 +34,7 @@ class NotLoaded:
         """Leave it to the entry that links the part."""
 
 
-class Part(JITCodeLibrary):  # type: ignore[misc]
+class Part(JITCodeLibrary):
     """Code of one function as it was lowered: neither optimised, nor linked, nor loaded."""
 
     _linked: Any = None
@@ -97,7 +97,7 @@ def defined(part: Part) -> list[str]:
     ]
 
 
-class Whole(JITCodeLibrary):  # type: ignore[misc]
+class Whole(JITCodeLibrary):
     """Code of an entry with that of every function it may come to."""
 
     def finalize(self) -> None:
@@ -108,14 +108,15 @@ class Whole(JITCodeLibrary):  # type: ignore[misc]
             self._final_module.get_function(name).linkage = llvm.Linkage.internal
         self._linking_libraries = []
         super().finalize()
+        codegen: Any = self._codegen
         for value in self._final_module.global_variables:
             if value.name.startswith(ENVIRONMENT):
                 env = lookup_environment(value.name)
                 if env is not None:
-                    self._codegen.set_env(value.name, env)
+                    codegen.set_env(value.name, env)
 
 
-class Settled(Flags):  # type: ignore[misc]
+class Settled(Flags):
     """Flags that are compared a hundred thousand times: by what is set, with one hash."""
 
     _hash: int | None = None
@@ -133,10 +134,12 @@ class Settled(Flags):  # type: ignore[misc]
         return bool(super().__eq__(other))
 
 
-class PartCompiler(Compiler):  # type: ignore[misc]
+class PartCompiler(Compiler):
     """Compiler of kernels that only others call."""
 
-    def __init__(self, typing: Any, target: Any, library: Any, args: Any, back: Any, flags: Any, names: Any) -> None:
+    def __init__(
+        self, typing: Any, target: Any, library: Any, args: Any, back: Any, flags: Any, names: Any
+    ) -> None:
         super().__init__(typing, target, library, args, back, Settled(flags), names)
 
     def compile_extra(self, func: Any) -> Any:
@@ -145,16 +148,17 @@ class PartCompiler(Compiler):  # type: ignore[misc]
         return super().compile_extra(func)
 
 
-class WholeCompiler(PartCompiler):
+class WholeCompiler(Compiler):
     """Compiler of kernels that Python calls."""
 
     def compile_extra(self, func: Any) -> Any:
         """Compile a function with all parts that it may come to."""
         codegen = self.state.targetctx.codegen()
+        self.state.flags = Settled(self.state.flags)
         self.state.library = Whole(codegen, func.__qualname__)
         self.state.library.enable_object_caching()
         with parts_only(codegen):
-            return Compiler.compile_extra(self, func)
+            return super().compile_extra(func)
 
 
 @contextmanager

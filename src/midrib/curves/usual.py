@@ -1,0 +1,111 @@
+"""Lines with the usual options, of many areas at once and by several threads."""
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import shapely
+
+from midrib import interrupts
+from midrib.checks import shown
+from midrib.curves.construction import CENTRED_WITHIN
+from midrib.curves.finding import Found
+from midrib.errors import ParameterError
+from midrib.kernels.batch import Lines, collapse_many
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from midrib.layout import Scale
+    from midrib.ragged import Packed
+    from midrib.types import Floats, Ints
+
+__all__ = ["Usual", "threads_to_use", "usual_line", "usual_lines"]
+
+RUN = 2**15  # vertices that a thread takes at a time: a few milliseconds of work
+
+
+class Usual(NamedTuple):
+    """Lines of areas as geometries, None where the single steps are to be taken."""
+
+    lines: "NDArray[np.object_]"
+    loops: "Ints"  # how many each has lost
+
+
+def threads_to_use(threads: object) -> int:
+    """Return how many threads are wanted; None stands for every processor one may use.
+
+    Raises
+    ------
+    ParameterError
+        If it is no positive whole number.
+    """
+    if threads is None:
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
+    if isinstance(threads, bool) or not isinstance(threads, int | np.integer) or threads < 1:
+        msg = f"threads is {shown(threads)}, expected a positive whole number or None"
+        raise ParameterError(msg)
+    return int(threads)
+
+
+def usual_line(coordinates: "Floats", offsets: "Ints", scale: "Scale") -> Found | None:
+    """Return the line of one area, None if the single steps are to be taken."""
+    whole = np.array([0, offsets.size - 1], np.intp)
+    scales = np.array([scale], np.float64)
+    found = collapse_many(coordinates, offsets, whole, 0, 1, CENTRED_WITHIN, scales)
+    return Found(found.points, None, int(found.loops[0])) if found.is_done[0] else None
+
+
+def usual_lines(packed: "Packed", scales: "Floats", threads: int) -> Usual:
+    """Lines of areas; the same ones, bit by bit, for any number of threads.
+
+    Parameters
+    ----------
+    packed : the areas
+    scales : (n, 2) lengths of one unit of x and of y in each; NaN where none is wanted
+    threads : how many run at once
+    """
+    runs = runs_of(packed.ring_offsets[packed.area_offsets])
+
+    def found_in(run: tuple[int, int]) -> Lines:
+        return collapse_many(*packed[:3], *run, CENTRED_WITHIN, scales)
+
+    found: list[Lines] = []
+    if min(threads, len(runs)) == 1:
+        for run in runs:
+            interrupts.check()
+            found.append(found_in(run))
+    else:
+        with ThreadPoolExecutor(threads) as pool:
+            try:
+                for lines in pool.map(found_in, runs):
+                    interrupts.check()
+                    found.append(lines)
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+    return as_geometries(found)
+
+
+def runs_of(starts: "Ints") -> list[tuple[int, int]]:
+    """Divide areas into runs of about as many vertices: the first one, the one after the last."""
+    runs, n = [], starts.size - 1
+    first = 0
+    while first < n:
+        last = int(np.searchsorted(starts, starts[first] + RUN, side="right")) - 1
+        last = min(max(last, first + 1), n)
+        runs.append((first, last))
+        first = last
+    return runs
+
+
+def as_geometries(found: list[Lines]) -> Usual:
+    """Return the lines of several runs as geometries."""
+    sizes = np.concatenate([np.diff(lines.offsets) for lines in found])
+    is_done = np.concatenate([lines.is_done for lines in found])
+    lines: NDArray[np.object_] = np.empty(is_done.size, dtype=object)
+    points = np.concatenate([lines.points for lines in found])
+    indices = np.repeat(np.arange(np.count_nonzero(is_done)), sizes[is_done])
+    lines[is_done] = shapely.linestrings(points, indices=indices)
+    return Usual(lines, np.concatenate([lines.loops for lines in found]))

@@ -1,0 +1,82 @@
+"""Many areas in one call: ragged rings in, ragged lines out, nothing of Python in between.
+
+    areas      | area 0        | area 1   | ...     area_offsets: where each one's rings begin
+    rings      | shell | hole  | shell    | ...     ring_offsets: where each one's rows begin
+    rows       x y x y x y ...                      coordinates
+
+A call takes a run of areas and lets other threads go on meanwhile; what it finds for an area does
+not depend on the others, nor on how many of them there are in the run.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.collapsing import collapse_rings
+from midrib.kernels.jit import njit
+from midrib.kernels.tables import with_rows
+from midrib.types import Bools, Floats, Ints
+
+__all__ = ["Lines", "collapse_many"]
+
+
+class Lines(NamedTuple):
+    """Lines of several areas."""
+
+    is_done: Bools  # whether there is one; the single steps know what to do or to say if not
+    points: Floats  # (m, 2)
+    offsets: Ints  # where the points of each begin, and where those of the last one end
+    loops: Ints  # how many each has lost
+
+
+@njit(entry=True)
+def collapse_many(
+    coordinates: Floats,
+    ring_offsets: Ints,
+    area_offsets: Ints,
+    first: int,
+    last: int,
+    share: float,
+    scales: Floats,
+) -> Lines:
+    """Trunks of the areas from ``first`` up to ``last``, as ``collapse_rings`` finds them.
+
+    Parameters
+    ----------
+    coordinates, ring_offsets, area_offsets : polygons as drawn above
+    first, last : which of them
+    share : tolerance, as a share of the mean width
+    scales : (n, 2) lengths of one unit of x and of y in each area; NaN where none is wanted
+    """
+    n = last - first
+    is_done, loops = np.zeros(n, np.bool_), np.zeros(n, np.intp)
+    offsets, points, used = np.zeros(n + 1, np.intp), np.empty((32 * n + 16, 2)), 0
+    for i in range(n):
+        start, stop = area_offsets[first + i], area_offsets[first + i + 1] + 1
+        rings = np.empty(stop - start, np.intp)
+        for k in range(rings.size):
+            rings[k] = ring_offsets[start + k] - ring_offsets[start]
+        rows = coordinates[ring_offsets[start] : ring_offsets[stop - 1]]
+        scale_x, scale_y = scales[first + i, 0], scales[first + i, 1]
+        offsets[i + 1] = used
+        if not np.isfinite(scale_x * scale_y):
+            continue
+        done, line, lost = collapse_rings(rows, rings, share, scale_x, scale_y)
+        if done and is_finite(line):
+            size = line.shape[0]
+            if used + size > points.shape[0]:
+                points = with_rows(points, 2 * (used + size))
+            for k in range(size):
+                points[used + k, 0], points[used + k, 1] = line[k, 0], line[k, 1]
+            used += size
+            is_done[i], loops[i], offsets[i + 1] = True, lost, used
+    return Lines(is_done, with_rows(points[:used], used), offsets, loops)
+
+
+@njit(borrows=True)
+def is_finite(points: Floats) -> bool:
+    """Whether all coordinates are numbers; tools choke on others."""
+    for k in range(points.shape[0]):
+        if not (np.isfinite(points[k, 0]) and np.isfinite(points[k, 1])):
+            return False
+    return True

@@ -1,0 +1,89 @@
+"""Many areas in one call: the same lines as one by one, for any number of threads."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapely import MultiPolygon, Polygon, box
+
+import midrib
+from midrib.curves import usual
+from midrib.errors import ParameterError
+from tests.shapes import annulus_sector, stadium, wavy_ribbon, wedge
+
+POLE = 100.0
+
+
+@pytest.fixture(scope="module")
+def areas() -> "np.ndarray[tuple[int], np.dtype[np.object_]]":
+    """Areas of several kinds, and some that the kernel leaves to the single steps."""
+    usual_ones = [wavy_ribbon(n, 0.1 + n / 200.0) for n in range(20, 60)]
+    usual_ones += [wedge(0.1 * k, 9.0) for k in range(1, 8)]
+    usual_ones += [annulus_sector(4.0, 5.0 + k, 2.0, 12) for k in range(6)]
+    usual_ones += [stadium(4.0, 0.2 * k) for k in range(1, 8)]
+    touching = Polygon(
+        [(0, 0), (40, 0), (40, 6), (0, 6)], [[(10, 6), (12, 3), (14, 3)]]
+    )  # its hole touches the shell
+    odd = [
+        None,
+        Polygon(),
+        box(0, 0, 1e-3, 7),
+        touching,
+        shapely.force_3d(box(0, 0, 9, 2), 5.0),
+        MultiPolygon([box(0, 0, 9, 2), box(20, 0, 29, 3)]),
+    ]
+    found = np.empty(len(odd) + 60, dtype=object)
+    found[:] = [*odd[:3], *usual_ones, *odd[3:]]
+    return found
+
+
+def bits(lines: object) -> list[bytes | None]:
+    """Return lines as bytes."""
+    found: list[bytes | None] = list(shapely.to_wkb(lines))
+    return found
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_lines_are_those_of_single_areas(
+    areas: "np.ndarray[tuple[int], np.dtype[np.object_]]",
+    threads: int,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(usual, "RUN", 300)  # a few areas at a time
+    lines = midrib.collapse(areas, threads=threads)
+    assert bits(lines) == bits([midrib.collapse(area) for area in areas])
+
+
+def test_degrees_are_those_of_single_areas() -> None:
+    rng = np.random.default_rng(5)
+    at = rng.uniform((-170, -80), (170, 80), (20, 2))
+    areas = [box(x, y, x + 0.02, y + 0.003) for x, y in at] + [box(0, 0, 1, POLE)]
+    lines, problems = midrib.collapse(areas, geographic=True, on_error="report", threads=2)
+    alone = [midrib.collapse(area, geographic=True) for area in areas[:-1]]
+    assert bits(lines) == [*bits(alone), None]
+    assert [problem.index for problem in problems] == [20]
+    assert "beyond a pole" in problems[0].reason
+
+
+def test_problems_come_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(usual, "RUN", 8)
+    flat = Polygon([(0, 0), (4, 4), (4, 0), (0, 4)])
+    lines, problems = midrib.collapse([flat, box(0, 0, 5, 1), flat], on_error="report", threads=2)
+    assert [line is None for line in lines] == [True, False, True]
+    assert [problem.index for problem in problems] == [0, 2]
+
+
+@pytest.mark.parametrize("threads", [0, -1, 1.5, True, "two"])
+def test_threads_are_a_positive_number(threads: Any) -> None:
+    with pytest.raises(ParameterError, match=r"threads is .*, expected a positive whole number"):
+        midrib.collapse(box(0, 0, 3, 1), threads=threads)
+
+
+def test_runs_cover_areas_once() -> None:
+    starts = np.concatenate([[0], np.cumsum([5, 70_000, 3, 30_000, 10_000, 5])])
+    runs = usual.runs_of(starts)
+    assert [run[0] for run in runs[1:]] == [run[1] for run in runs[:-1]]
+    assert runs[0][0] == 0
+    assert runs[-1][1] == 6
+    assert all(last > first for first, last in runs)
