@@ -11,7 +11,7 @@ from midrib.kernels.whole import Part, Whole, WholeCompiler
 from midrib.types import Floats
 
 COMPILER: Any = nb
-pytestmark = pytest.mark.skipif(nb.config.DISABLE_JIT, reason="nothing is compiled")
+pytestmark = pytest.mark.skipif(COMPILER.config.DISABLE_JIT, reason="nothing is compiled")
 
 
 @njit()
@@ -38,7 +38,7 @@ def other_entry(n: int) -> float:
     return entry(n) + total(sevens(n), 1)
 
 
-@COMPILER.njit
+@COMPILER.njit  # type: ignore[untyped-decorator]
 def somebody_elses(n: int) -> float:
     """Sum by functions of Numba's own that are parts already."""
     return float(np.full(n, 2.0).sum() + np.zeros(n).sum())
@@ -73,7 +73,7 @@ def test_parts_have_no_machine_code_and_entries_no_parts_left() -> None:
 
 
 def test_others_can_call_kernels() -> None:
-    @COMPILER.njit
+    @COMPILER.njit  # type: ignore[untyped-decorator]
     def theirs(n: int) -> float:
         return float(sevens(n).sum())
 
