@@ -27,6 +27,7 @@ CHECKS = {
     "swapped": "the top is lower than the toe",
     "off-ring": "an edge, or its start or end, is off the boundary",
     "orientation": "it is doubtful which edge is the top",
+    "pieces": "the top is stored in pieces: they were joined, or one was left out",
     "unmatched": "strokes are left out or cut short, or there is none, in some place",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
