@@ -166,7 +166,7 @@ def test_two_layers_of_lines_are_tops_and_toes(tmp_path: Path) -> None:
     save(path, "tops", [LineString([(0, 2), (9, 2)]), LineString([(0, 7), (9, 7)])], id=[1, 2])
     save(path, "toes", [LineString([(9, 5), (0, 5)]), LineString([(0, 0), (9, 0)])], id=[1, 2])
     slopes, problems = read_slopes(path, top="tops", toe="toes")
-    assert not problems
+    assert {problem.kind for problem in problems} == {"pairs"}  # either gap could be a slope
     assert [shapely.normalize(slope.area) for slope in slopes] == [
         shapely.normalize(area) for area in (LOW, HIGH)
     ]

@@ -28,6 +28,7 @@ CHECKS = {
     "off-ring": "an edge, or its start or end, is off the boundary",
     "orientation": "it is doubtful which edge is the top",
     "pieces": "the top is stored in pieces: they were joined, or one was left out",
+    "pairs": "lines alone do not tell which top goes with which toe",
     "unmatched": "strokes are left out or cut short, or there is none, in some place",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
