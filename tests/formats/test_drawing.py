@@ -500,7 +500,7 @@ def test_places_are_refused_before_any_work(tmp_path: Path) -> None:
         check_places(source, [source], overwrite=True)
     with pytest.raises(ParameterError, match="exists, give --overwrite"):
         check_places(source)
-    with pytest.raises(ParameterError, match=r"ends in '.docx', expected one of .gpkg"):
+    with pytest.raises(ParameterError, match=r"ends in '.docx', expected one of .dxf, .svg"):
         check_places(tmp_path / "map.docx")
     with pytest.raises(ParameterError, match="paper is 'A7', expected A4, A3"):
         check_places(tmp_path / "map.pdf", paper="A7")

@@ -176,7 +176,7 @@ def test_two_layers_of_lines_are_tops_and_toes(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "reason"),
     [
-        ({}, "does not tell the tops of its areas, expected top, or start and end"),
+        ({}, "layer 'areas' has the fields 'ax', 'ay', expected top, or start and end"),
         ({"start": "ax,ay"}, "start is 'ax,ay' and end is None, expected both or neither"),
         ({"top": "edge", "start": "ax,ay", "end": "b"}, "top excludes start and end"),
         ({"start": "ax,ay", "end": "b"}, "end is 'b', expected two fields X,Y of layer 'areas'"),

@@ -124,7 +124,7 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import is_same_plane
 
-    with open_layer(path, choose_layer(path, None)) as source:
+    with open_layer(path, choose_layer(path, None, "--exclude")) as source:
         if not is_same_plane(source.crs, crs):
             msg = f"--exclude {str(path)!r} is in another CRS than IN, expected the same"
             raise ParameterError(msg)

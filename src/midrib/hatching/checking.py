@@ -112,7 +112,8 @@ def check_slopes(
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
     doubted = {finding.id for finding in found if finding.check == "orientation"}
-    standards_named(standard)  # refuses an unknown one before any work is done
+    for known in standards_named(standard):  # refuses an unknown one before any work is done
+        known.at(scale)
     for slope in slopes:
         interrupts.check()
         found += heights(slope)

@@ -35,7 +35,7 @@ def places_of(path: Path) -> list[Path]:
     ending = path.suffix.lower()
     if ending in (*SHEETS, CAD, CARTOGRAPHIC):
         return [path]
-    if format_of(path).has_layers:
+    if format_of(path, more=(CAD, *SHEETS, CARTOGRAPHIC)).has_layers:
         return [path]
     return [path, *(beside(path, layer) for layer in (AREAS, EDGES, PROBLEMS))]
 
