@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pyarrow as pa
@@ -99,6 +100,26 @@ def test_whatever_tells_the_tops_slopes_are_the_same(way: object, tmp_path: Path
         assert slope.top == TOPS[slope.id]
         assert slope.toe.length == pytest.approx(slope.area.length - slope.top.length)
         assert slope.crs == RD_NEW
+
+
+@pytest.mark.parametrize("ending", ["shp", "zip", "gdb"])
+def test_formats_that_turn_rings_cast_doubt_on_starts_and_ends(ending: str, tmp_path: Path) -> None:
+    """The area is stored counter-clockwise, its top the right-hand side and the upper one."""
+    path = tmp_path / f"slopes.{'gdb' if ending == 'gdb' else 'shp'}"
+    columns = {"x1": [9.0], "y1": [0.0], "x2": [0.0], "y2": [2.0], "crest": [TOPS["low"].wkt]}
+    save(path, "slopes", [LOW], **columns)
+    if ending == "zip":
+        path = tmp_path / "slopes.zip"
+        with ZipFile(path, "w") as packed:
+            for side in tmp_path.glob("slopes.[!z]*"):
+                packed.write(side, side.name)
+    (slope,), (problem,) = read_slopes(path, start="x1,y1", end="x2,y2")
+    assert not slope.top.equals(TOPS["low"])
+    assert (problem.kind, problem.id) == ("orientation", slope.id)
+    assert "turns every ring clockwise" in problem.reason
+    (slope,), problems = read_slopes(path, top="crest")
+    assert slope.top.equals(TOPS["low"])
+    assert not problems
 
 
 def test_kinds_and_fields_are_kept(tmp_path: Path) -> None:

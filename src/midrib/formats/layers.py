@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiPolygon, Polygon
+from shapely import LineString, MultiPolygon, Point, Polygon
 
 from midrib.errors import ParameterError
 from midrib.formats.bdot500 import kind_of
@@ -16,6 +16,7 @@ from midrib.formats.pairs import add_pairs
 from midrib.formats.reading import (
     choose_layer,
     column_names,
+    driver_of,
     layer_names,
     listed,
     may_hold_areas,
@@ -75,6 +76,7 @@ KNOWN = (
     Hints("OT_Skarpa", start="OT_poczatekGorySkarpy:gml_id", end="OT_koniecGorySkarpy:gml_id"),
     Hints("talud", top="kruinlijn:gml_id"),
 )
+TURNING = ("ESRI Shapefile", "OpenFileGDB")  # formats that do not keep the order of rings
 KINDS_OF_LAYERS: dict[str, SlopeKind] = {"talud": "slope-unreinforced"}
 
 
@@ -95,7 +97,19 @@ def read_layer(path: Path, hints: Hints) -> tuple[list[Slope], list[SlopeProblem
         tops = tops_for(hints, path, source)
         for batch in source.batches():
             add_batch(found, source, batch, tops(batch))
+        driver = driver_of(path, source.layer)
+    if hints.start is not None and driver in TURNING:
+        doubt_ways(found, driver)
     return found.result()
+
+
+def doubt_ways(found: Gathered, driver: str) -> None:
+    """Doubt all tops that lead from a start to an end: the ring may have led the other way."""
+    reason = f"{driver} turns every ring clockwise: which edge leads from start to end is lost"
+    for slope in found.slopes:
+        if not slope.top.is_closed:
+            where = Point(slope.top.coords[0][:2])
+            found.problems.append(SlopeProblem(slope.id, "orientation", reason, where))
 
 
 def add_lines(found: Gathered, path: Path, hints: Hints) -> None:

@@ -17,6 +17,7 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
+from midrib.formats.endings import PARQUET
 from midrib.formats.geoparquet import geo_column
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Source",
     "choose_layer",
     "column_names",
+    "driver_of",
     "layer_names",
     "open_layer",
 ]
@@ -111,6 +113,14 @@ def layer_names(path: Path, name: str = "IN") -> dict[str, str | None]:
     except UNREADABLE:
         msg = f"{name} {str(path)!r} cannot be read as a vector file"
         raise ParameterError(msg) from None
+
+
+def driver_of(path: Path, layer: str) -> str:
+    """Return GDAL's name of the format that a layer is read from, ``"Parquet"`` for that."""
+    if path.suffix.lower() in PARQUET_ENDINGS:
+        return PARQUET
+    with without_m():
+        return str(pyogrio.read_info(path, layer=layer)["driver"])
 
 
 def column_names(path: Path, layer: str | int = 0) -> list[str]:
