@@ -213,6 +213,22 @@ def test_a_berm_whose_heights_are_known_is_no_slope(along: float) -> None:
     assert not found.problems
 
 
+def test_heights_are_compared_where_lines_are_beside_each_other() -> None:
+    """A steep ramp, level across: most vertices of its lower edge are at its lower end."""
+    top = raised(level(2), 100, 130)
+    toe = LineString([(x, 0, 100 + 30 * x / 9) for x in (0.0, 0.5, 1.0, 1.5, 9.0)])
+    assert not pairs([top], [toe]).slopes
+    turned = LineString(toe.coords[::-1])
+    assert not pairs([top], [turned]).slopes
+
+
+def test_lines_behind_others_cast_no_doubt() -> None:
+    """A ditch with a flat bottom, as wide as its sides."""
+    ditch = pairs([level(0), level(7)], [level(2), level(5)])
+    assert sorted(slope.area.area for slope in ditch.slopes) == [18.0, 18.0]
+    assert not ditch.problems
+
+
 def test_a_berm_without_heights_is_doubted() -> None:
     found = pairs(*berm(0.0, flat=True))
     doubts = [problem for problem in found.problems if problem.kind == "pairs"]
@@ -254,6 +270,7 @@ def test_two_slopes_may_share_an_edge(middle: tuple[bool, bool]) -> None:
 
 def test_a_shared_edge_on_both_layers_needs_no_heights() -> None:
     found = pairs([level(9), level(5)], [level(5), level(0)])
+    assert {problem.kind for problem in found.problems} <= {"pairs"}
     assert sorted(slope.area.bounds[1::2] for slope in found.slopes) == [(0.0, 5.0), (5.0, 9.0)]
 
 

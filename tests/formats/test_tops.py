@@ -84,6 +84,15 @@ def test_starts_and_ends_in_pieces_are_joined_too() -> None:
     assert problem.kind == "pieces"
 
 
+@pytest.mark.parametrize("area", [SLAB, SLAB.reverse()])
+@pytest.mark.parametrize("turned", [False, True])
+def test_the_longest_piece_gives_the_direction(area: Polygon, turned: bool) -> None:
+    long, short = LineString([(0, 2), (14, 2)]), LineString([(20, 2), (14, 2)])
+    (top,), _ = joined_tops(area, [short, long.reverse() if turned else long])
+    assert isinstance(top, LineString)
+    assert [*top.coords] == [*(CREST.reverse() if turned else CREST).coords]
+
+
 def test_pieces_that_overlap_or_are_stored_twice_are_one() -> None:
     pieces = [LineString([(0, 2), (12, 2)]), LineString([(8, 2), (20, 2)]), CREST]
     (top,), _ = joined_tops(SLAB, pieces)
