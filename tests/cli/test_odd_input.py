@@ -74,7 +74,7 @@ CASES = [
     ("points.gpkg", points, [], "holds Point, expected areas"),
     ("no_top.gpkg", no_top, [], "layer 's' has the fields 'id', expected top, or"),
     ("a.gpkg", slopes, ["--layer", "nope"], "--layer is 'nope', expected a layer of IN"),
-    ("two.gpkg", two_layers, [], "one, chosen with --layer: 'north', 'south'"),
+    ("two.gpkg", two_layers, [], "choose one with --layer: 'north', 'south'"),
     ("other.gml", text(GML.format("", OTHER)), [], "layer 'a' has the fields"),
     ("broken.gml", text(GML.format("", OTHER)[:120]), [], "cannot be read to its end: "),
     ("nothing.gml", text(""), [], "cannot be read to its end: "),

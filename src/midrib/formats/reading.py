@@ -157,9 +157,8 @@ def choose_layer(path: Path, layer: str | None, name: str = "IN") -> str:
     if len(with_areas) == 1:
         return with_areas[0]
     if with_areas:
-        msg = f"{name} {str(path)!r} has several layers, expected one"
-        if name == "IN":
-            msg = f"{msg}, chosen with --layer: {listed(with_areas)}"
+        wanted = "choose one with --layer" if name == "IN" else "expected one"
+        msg = f"{name} {str(path)!r} has several layers, {wanted}: {listed(with_areas)}"
         raise ParameterError(msg)
     held = ", ".join(sorted({kind or "no geometries" for kind in layers.values()})) or "nothing"
     msg = f"{name} {str(path)!r} holds {held}, expected areas (Polygon or MultiPolygon)"
