@@ -13,7 +13,7 @@ from shapely import LineString, Polygon
 
 from midrib.errors import InvalidAreaError
 from midrib.formats.tops import Top, joined_tops
-from midrib.hatching.edges import Doubt, Edges, edges_along, edges_between, mean_width
+from midrib.hatching.edges import NEAR, Doubt, Edges, edges_along, edges_between, mean_width
 from midrib.hatching.slope import Slope, SlopeError, SlopeProblem
 
 if TYPE_CHECKING:
@@ -75,11 +75,7 @@ class Gathered:
                     if i == 0:
                         self.add(slope(own, areas[k], edges), [*edges.doubts, *doubts])
                     elif not edges.top.is_closed:  # a hole is the top of all sides at once
-                        msg = (
-                            "two tops are on the same part of its area, expected a part for each "
-                            "side"
-                        )
-                        raise SlopeError(msg, shapely.get_coordinates(edges.top)[0])
+                        raise another_top(areas[k], top, some[:i])
         for k, area in enumerate(areas):
             if k not in on_part:
                 with self.refusing(identifier):
@@ -125,6 +121,26 @@ def off(area: Polygon, top: Top) -> float:
     """How far a top is from the boundary of an area, in all."""
     corners = shapely.get_coordinates(top) if isinstance(top, LineString) else np.array(top)
     return float(shapely.distance(shapely.points(corners[:, :2]), area.boundary).sum())
+
+
+def another_top(area: Polygon, top: Top, others: Sequence[Top]) -> SlopeError:
+    """Say that a top is on a part of an area that has others, and how far from them."""
+    apart, near = min(distance(top, other) for other in others), NEAR * mean_width(area)
+    msg = (
+        f"two tops are on the same part of its area, {apart:.3g} apart, expected a part for each "
+        f"side, or {near:.3g} at most"
+    )
+    start = shapely.get_coordinates(top)[0] if isinstance(top, LineString) else top[0]
+    return SlopeError(msg, start)
+
+
+def distance(top: Top, other: Top) -> float:
+    """How far two tops are apart; of those with start and end, those points are."""
+    first, second = (
+        one if isinstance(one, LineString) else shapely.multipoints(np.array(one)[:, :2])
+        for one in (top, other)
+    )
+    return float(shapely.distance(first, second))
 
 
 def edges_of(area: Polygon, top: Top) -> Edges:
