@@ -39,6 +39,7 @@ quality: $(VENV)/ready
 	$(BIN)/python benchmarks/bays.py
 	$(BIN)/python benchmarks/limit.py
 	$(BIN)/python benchmarks/hatching.py
+	$(BIN)/python benchmarks/drawn_by_others.py
 	$(BIN)/python benchmarks/towers.py
 
 # Warnings are errors, pages of names and figures that are gone among them: all are made anew.

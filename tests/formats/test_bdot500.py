@@ -8,7 +8,10 @@ import pytest
 import shapely
 
 from midrib.errors import ParameterError
+from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.slopes import read_slopes
+from midrib.hatching.checking import check_slopes
+from midrib.types import Floats
 from tests.formats.gml_files import (
     BDOT_2015,
     BDOT_2021,
@@ -180,6 +183,42 @@ def test_both_sides_of_a_dyke_are_slopes(tmp_path: Path) -> None:
         assert [slope.kind for slope in slopes] == ["dyke", "dyke"]
         for slope, top in zip(slopes, tops, strict=True):
             assert (slope.top.coords[0], slope.top.coords[-1]) == top
+
+
+def winding_dyke(path: Path) -> Path:
+    """A dyke of the model of 2021: a winding crest 3 m wide, slopes of 3 to 7 m on both sides."""
+    share = np.linspace(0.0, 1.0, 25)
+    middle = np.column_stack([90.0 * share, 12.0 * np.sin(2.2 * np.pi * share)])
+    along = np.gradient(middle, axis=0)
+    normal = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
+    width = 5.0 + 2.0 * np.sin(3.0 * np.pi * share)[:, None]
+
+    def beside(off: Floats | float) -> list[At]:
+        points = np.round(middle + off * normal + [E0, N0], 2)
+        return [(float(x), float(y)) for x, y in points]
+
+    left, right = beside(1.5), beside(-1.5)[::-1]
+    surfaces = [ring(left + beside(1.5 + width)[::-1]), ring(right + beside(-1.5 - 0.8 * width))]
+    tops = [(left[0], left[-1]), (right[0], right[-1])]
+    return collection(path, BDOT_2021, dyke("d", surfaces, tops))
+
+
+def test_both_sides_of_a_winding_dyke_are_hatched_downwards(tmp_path: Path) -> None:
+    slopes, problems = read_slopes(winding_dyke(tmp_path / "a.gml"))
+    assert not problems
+    assert not check_slopes(slopes)
+    drawing = draw_slopes(slopes, "pl-2021")
+    assert [drawn.id for drawn in drawing.objects] == ["d/1", "d/2"]
+    assert not drawing.problems
+    for drawn, slope in zip(drawing.objects, slopes, strict=True):
+        lines = drawn.symbols.lines
+        assert len(lines) > 30
+        assert shapely.covers(slope.area.buffer(1e-6), lines).all()
+        crest, foot = (shapely.get_point(lines, end) for end in (0, -1))
+        assert shapely.distance(slope.top, crest).max() < 1e-6
+        assert (shapely.distance(slope.top, foot) > 1.0).all()
+    both = np.concatenate([drawn.symbols.lines for drawn in drawing.objects])
+    assert not check_slopes([], strokes=both)
 
 
 def test_a_dyke_with_its_crest_as_a_hole_is_one_slope(tmp_path: Path) -> None:

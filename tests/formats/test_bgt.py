@@ -58,6 +58,27 @@ def test_the_crest_is_the_top(tmp_path: Path) -> None:
     assert "RD New" in slope.crs
 
 
+@pytest.mark.parametrize("member", ["curveMember", "curveMembers", "several"])
+def test_a_crest_of_several_curves_is_one(member: str, tmp_path: Path) -> None:
+    pieces = ["140000 466004 140009 466004", "140020 466004 140009 466004"]
+    lines = [
+        f"<gml:LineString {RD}><gml:posList>{piece}</gml:posList></gml:LineString>"
+        for piece in pieces
+    ]
+    if member == "curveMember":
+        lines = [f"<gml:curveMember>{line}</gml:curveMember>" for line in lines]
+    inside = "".join(lines)
+    if member == "curveMembers":
+        inside = f"<gml:curveMembers>{inside}</gml:curveMembers>"
+    name = "imgeo:kruinlijnBegroeidTerreindeel"
+    crests = "".join(f"<{name}>{line}</{name}>" for line in lines)
+    if member != "several":
+        crests = f"<{name}><gml:MultiCurve>{inside}</gml:MultiCurve></{name}>"
+    (slope,), (problem,) = read_slopes(written(tmp_path / "a.gml", part("a", "true", crests)))
+    assert [*slope.top.coords] == [(140020.0, 466004.0), (140000.0, 466004.0)]
+    assert problem.kind == "pieces"
+
+
 def test_parts_that_do_not_slope_are_passed_over(tmp_path: Path) -> None:
     ended = "<imgeo:eindRegistratie>2019-11-07T05:39:59.000</imgeo:eindRegistratie>"
     path = written(

@@ -86,7 +86,7 @@ def test_what_would_lie_on_another_slope_or_be_wider_than_long_is_no_slope() -> 
     assert [problem.id for problem in far.problems] == ["top 2"]
     cut = pairs([level(0)], [LineString([(0, -3), (4, -3)]), LineString([(4.1, -3), (9, -3)])])
     assert len(cut.slopes) == 1
-    assert len(cut.problems) == 1
+    assert [problem.kind for problem in cut.problems] == ["pairs", "refused"]
 
 
 def test_edges_of_two_slopes_may_meet_in_a_corner() -> None:
@@ -188,3 +188,104 @@ def test_lines_and_arcs_of_a_real_drawing_join_into_loops() -> None:
     lines = joined([*pieces(document, {"0"})])
     assert len(lines) < 79
     assert all(Polygon(line).is_valid for line in lines if line.is_closed)
+
+
+def raised(line: LineString, *heights: float) -> LineString:
+    """A line with heights at its ends."""
+    return LineString([(*p, z) for p, z in zip(line.coords, heights, strict=True)])
+
+
+# Across a dyke with a berm that is narrower than its slopes, y and height: the crest, the inner
+# edge of the berm (a toe), the outer one (a top), the foot.
+BERM = [(20.0, 9.0), (14.0, 6.0), (12.0, 5.95), (4.0, 2.0)]
+
+
+def berm(along: float, *, flat: bool = False) -> tuple[list[LineString], list[LineString]]:
+    """Tops and toes of a dyke with a berm; its crest rises by so much from end to end."""
+    lines = [level(y) if flat else raised(level(y), z, z + along) for y, z in BERM]
+    return lines[::2], lines[1::2]
+
+
+@pytest.mark.parametrize("along", [0.0, 30.0], ids=["level crest", "rising crest"])
+def test_a_berm_whose_heights_are_known_is_no_slope(along: float) -> None:
+    found = pairs(*berm(along))
+    assert sorted(slope.area.bounds[1::2] for slope in found.slopes) == [(4.0, 12.0), (14.0, 20.0)]
+    assert not found.problems
+
+
+def test_heights_are_compared_where_lines_are_beside_each_other() -> None:
+    """A steep ramp, level across: most vertices of its lower edge are at its lower end."""
+    top = raised(level(2), 100, 130)
+    toe = LineString([(x, 0, 100 + 30 * x / 9) for x in (0.0, 0.5, 1.0, 1.5, 9.0)])
+    assert not pairs([top], [toe]).slopes
+    turned = LineString(toe.coords[::-1])
+    assert not pairs([top], [turned]).slopes
+
+
+def test_lines_behind_others_cast_no_doubt() -> None:
+    """A ditch with a flat bottom, as wide as its sides."""
+    ditch = pairs([level(0), level(7)], [level(2), level(5)])
+    assert sorted(slope.area.area for slope in ditch.slopes) == [18.0, 18.0]
+    assert not ditch.problems
+
+
+def test_a_berm_without_heights_is_doubted() -> None:
+    found = pairs(*berm(0.0, flat=True))
+    doubts = [problem for problem in found.problems if problem.kind == "pairs"]
+    on_berm = [slope.id for slope in found.slopes if slope.area.bounds[1::2] == (12.0, 14.0)]
+    assert on_berm
+    assert {*on_berm} <= {doubt.id for doubt in doubts}
+    assert "a berm or a path is no slope" in doubts[0].reason
+    assert all(doubt.where is not None for doubt in doubts)
+
+
+@pytest.mark.parametrize(
+    ("fall", "is_slope"), [(-1.0, False), (0.0, False), (0.09, False), (0.11, True)]
+)
+def test_what_falls_no_more_than_a_path_is_no_slope(fall: float, is_slope: bool) -> None:
+    found = pairs([raised(level(2), 7 + fall, 7 + fall)], [raised(level(0), 7, 7)])
+    assert len(found.slopes) == is_slope
+    assert (
+        [problem.reason for problem in found.problems] == []
+        if is_slope
+        else [
+            "no line goes with this top: toe 1 beside it is not lower than a path may be",
+            "no line goes with this toe: top 1 beside it is not higher than a path may be",
+        ]
+    )
+
+
+@pytest.mark.parametrize("middle", [(True, True), (True, False), (False, True)])
+def test_two_slopes_may_share_an_edge(middle: tuple[bool, bool]) -> None:
+    """The edge between two slopes is on the layer of tops, on that of toes, or on both."""
+    shared = raised(level(5), 6, 6)
+    tops = [raised(level(9), 9, 9), *[shared] * middle[0]]
+    toes = [*[shared] * middle[1], raised(level(0), 2, 2)]
+    found = pairs(tops, toes)
+    assert not found.problems
+    assert sorted(slope.area.bounds[1::2] for slope in found.slopes) == [(0.0, 5.0), (5.0, 9.0)]
+    for slope in found.slopes:
+        assert slope.top.coords[0][1] > slope.toe.coords[0][1]
+
+
+def test_a_shared_edge_on_both_layers_needs_no_heights() -> None:
+    found = pairs([level(9), level(5)], [level(5), level(0)])
+    assert {problem.kind for problem in found.problems} <= {"pairs"}
+    assert sorted(slope.area.bounds[1::2] for slope in found.slopes) == [(0.0, 5.0), (5.0, 9.0)]
+
+
+def test_pairs_that_nothing_else_is_beside_are_not_doubted() -> None:
+    assert not pairs([level(0), level(30)], [level(-2), level(33)]).problems
+    walled = pairs([level(0), level(5)], [level(2), level(8)])
+    assert {p.kind for p in walled.problems} == {"pairs"}
+
+
+def test_a_berm_of_a_drawing_is_left_out(tmp_path: Path) -> None:
+    document = ezdxf.new()
+    for layer, lines in zip(("DYKE_TOP", "DYKE_TOE"), berm(0.5), strict=True):
+        for line in lines:
+            document.modelspace().add_polyline3d([*line.coords], dxfattribs={"layer": layer})
+    document.saveas(tmp_path / "a.dxf")
+    slopes, problems = read_slopes(tmp_path / "a.dxf")
+    assert sorted(slope.area.area for slope in slopes) == [54.0, 72.0]
+    assert not problems

@@ -15,6 +15,7 @@ import shapely
 from ezdxf.document import Drawing as Document
 from ezdxf.filemanagement import readfile
 from shapely import LineString
+from shapely.affinity import translate
 
 from midrib import standard
 from midrib.errors import ParameterError
@@ -26,6 +27,7 @@ from midrib.formats.drawing.sheet import AROUND, MARGIN, pages_of
 from midrib.formats.drawing.write import check_places, write_drawing
 from midrib.formats.reading import layer_names, open_layer
 from tests.formats.drawings import EAST, NORTH, drawing
+from tests.hatching.standin import mound, rectangle
 
 system = system_of("EPSG:2177")
 assert system is not None
@@ -204,6 +206,74 @@ def test_dxf_strokes_have_the_heights_of_the_edges(tmp_path: Path) -> None:
         assert start[2] == pytest.approx(172.0 + (start[0] - EAST) / 40.0)
         assert start[2] - end[2] == pytest.approx(2.0 if is_long else 1.0)
     assert document.header["$EXTMAX"][2] == pytest.approx(172.5)
+
+
+def in_space() -> Drawing:
+    """Slope, wedges and mound that rise by a tenth to the east and 3 in 10 up the slope."""
+    content = drawing(POLAND)
+    for k, shape in enumerate((rectangle("iof-104"), rectangle("iof-104"), mound("tadpole"))):
+        base = (EAST, NORTH), (EAST, NORTH + 9.0), (EAST + 40.0, NORTH + 8.0)
+        edges = [shapely.force_3d(translate(edge, *base[k])) for edge in shape.strip[:2]]
+        edges = [shapely.transform(edge, on_plane, include_z=True) for edge in edges]
+        content.objects[k] = replace(content.objects[k], relief=relief_of(*edges))
+    return content
+
+
+def on_plane(points: Any) -> Any:
+    """Points put on a plane."""
+    x, y = points[:, 0] - EAST, points[:, 1] - NORTH
+    return np.column_stack([points[:, :2], 170.0 + 0.1 * x + 0.3 * y])
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "fgb", "geojson", "parquet", "shp"])
+def test_layers_have_the_heights_of_the_slopes(ending: str, tmp_path: Path) -> None:
+    """Those of the conveyor are unknown: 0, so that all of a layer is of one kind."""
+    path = tmp_path / f"map.{ending}"
+    content = in_space()
+    notes = write_drawing(path, content)
+    assert "heights of 1 of 4 objects are unknown: 0" in notes
+    for layer in layers_of(content)[:3]:
+        apart = path.with_name(f"map_{layer.layer}.{ending}")
+        place = path if layer.layer == LINES or ending == "gpkg" else apart
+        name = layer.layer if ending == "gpkg" else next(iter(layer_names(place)))
+        with open_layer(place, name) as source:
+            batches = [*source.batches()]
+        rows = [row for batch in batches for row in batch.attributes["area"].to_pylist()]
+        read = [geometry for batch in batches for geometry in batch.geometries]
+        assert len(rows) == len(layer.geometries)
+        for area, geometry in zip(rows, read, strict=True):
+            points = shapely.get_coordinates(geometry, include_z=True)
+            expected = on_plane(points)[:, 2] if area in {"s1", "s2"} else np.zeros(len(points))
+            if area != "m1":  # no plane, but between its edges
+                assert points[:, 2] == pytest.approx(expected, abs=1e-6)
+            assert area == "c1" or points[:, 2].min() > 160.0
+
+
+def test_without_heights_layers_are_flat(tmp_path: Path) -> None:
+    path = tmp_path / "map.gpkg"
+    assert write_drawing(path, drawing(POLAND)) == []
+    assert pyogrio.read_info(path, layer=LINES)["geometry_type"] == "LineString"
+
+
+def test_dxf_fills_and_figures_have_heights(tmp_path: Path) -> None:
+    document = readfile(written(tmp_path, "dxf", in_space()))
+    assert document.audit().errors == []
+    space = document.modelspace()
+    hatches = space.query('HATCH[layer=="IOF-104_SYMBOLS"]')
+    outlines = space.query('POLYLINE[layer=="IOF-104_SYMBOLS"]')
+    assert len(hatches) == len(outlines) == 9
+    for hatch, outline in zip(hatches, outlines, strict=True):
+        points = np.array([vertex.dxf.location.xyz for vertex in outline.vertices])
+        assert points[:, 2] == pytest.approx(on_plane(points)[:, 2], abs=1e-6)
+        assert outline.is_closed
+        assert outline.dxf.lineweight == 0
+        assert points[:, :2] == pytest.approx(np.array(hatch.paths[0].vertices)[:, :2])
+        assert hatch.dxf.elevation.z == pytest.approx(points[:, 2].mean())
+    heads = space.query("INSERT[name=='MIDRIB_HEAD']")
+    assert len(heads) == 40
+    assert min(head.dxf.insert.z for head in heads) > 160.0
+    circles = space.query("INSERT[name=='MIDRIB_CIRCLE']")
+    assert {circle.dxf.insert.z for circle in circles} == {0.0}
 
 
 def test_unknown_heights_leave_a_drawing_flat() -> None:
@@ -430,7 +500,7 @@ def test_places_are_refused_before_any_work(tmp_path: Path) -> None:
         check_places(source, [source], overwrite=True)
     with pytest.raises(ParameterError, match="exists, give --overwrite"):
         check_places(source)
-    with pytest.raises(ParameterError, match=r"ends in '.docx', expected one of .gpkg"):
+    with pytest.raises(ParameterError, match=r"ends in '.docx', expected one of .dxf, .svg"):
         check_places(tmp_path / "map.docx")
     with pytest.raises(ParameterError, match="paper is 'A7', expected A4, A3"):
         check_places(tmp_path / "map.pdf", paper="A7")

@@ -34,6 +34,7 @@ __all__ = ["Places", "drawn_strokes", "metres_per_unit", "print_findings"]
 HEADINGS = ("slope", "check", "x", "y", "reason")
 LAYER = "findings"
 DIGITS = 3  # of coordinates on the terminal
+LINE_KINDS = ("Line", "Curve", "Unknown", "GeometryCollection")
 WIDEST = 10_000  # characters of a line that nobody looks at
 
 
@@ -53,7 +54,7 @@ class Places(NamedTuple):
             If a place is IN, is taken, or has an ending that nothing can be written with.
         """
         if self.out is not None:
-            check_table(self.out)
+            check_table(self.out, "--out")
             check_free([self.out], "--out", overwrite=overwrite)
         if self.figure is not None:
             check_figure(self.figure)
@@ -167,11 +168,15 @@ def drawn_strokes(strokes: str, source: Path) -> Geometries:
         return np.array([*read_lines(path, "--strokes", layer or "*"), None], dtype=object)[:-1]
     if path.suffix.lower() in XML and any(BASIC_MODEL in uri for uri in namespaces(path)):
         return np.array([*read_drawn(path, layer or "*"), None], dtype=object)[:-1]
-    layers = layer_names(path)
+    layers = layer_names(path, "--strokes")
     if not layer and len(layers) == 1:
         layer = next(iter(layers))
     if layer not in layers:
         msg = f"--strokes is {strokes!r}, expected a layer of {str(path)!r}: {listed(layers)}"
+        raise ParameterError(msg)
+    kind = layers[layer] or "no geometries"
+    if not any(word in kind for word in LINE_KINDS):
+        msg = f"--strokes is {strokes!r}, which holds {kind}, expected lines"
         raise ParameterError(msg)
     with open_layer(path, layer) as features:
         parts = [shapely.get_parts(batch.geometries) for batch in features.batches()]

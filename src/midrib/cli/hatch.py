@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import DrawingRule, StartSide
+from midrib.cli.options import DrawingRule, SharedEdges, StartSide
 from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -40,6 +40,7 @@ def hatch(
     from_side: cli.From = StartSide.left,
     offset: cli.Offset = 1.0,
     first: cli.First = None,
+    shared: cli.SharedStrokes = SharedEdges.meet,
     end_strokes: cli.EndStrokes = False,
     stiffness: cli.Stiffness = None,
     top_share: cli.TopShare = None,
@@ -96,6 +97,7 @@ def hatch(
         scale,
         problems=problems,
         values=values,
+        shared=shared.value,
         track=lambda slopes: report.track(slopes, len(slopes), lambda _: 1, "hatching"),
         **options,
     )
@@ -124,7 +126,7 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import is_same_plane
 
-    with open_layer(path, choose_layer(path, None)) as source:
+    with open_layer(path, choose_layer(path, None, "--exclude")) as source:
         if not is_same_plane(source.crs, crs):
             msg = f"--exclude {str(path)!r} is in another CRS than IN, expected the same"
             raise ParameterError(msg)

@@ -51,16 +51,18 @@ class Table:
         return sum(profile.stations.size for profile in self.profiles)
 
 
-def check_table(out: Path) -> None:
-    """Refuse a format that has no attributes.
+def check_table(out: Path, name: str = "OUT") -> None:
+    """Refuse a format that has no attributes; ``name`` is what the file is called.
 
     Raises
     ------
     ParameterError
-        If OUT has its ending.
+        If the file has its ending.
     """
-    if format_of(out).is_drawing:
-        msg = f"OUT {str(out)!r} ends in {out.suffix!r}, which holds no table, expected .csv, say"
+    if format_of(out, name).is_drawing:
+        msg = (
+            f"{name} {str(out)!r} ends in {out.suffix!r}, which holds no table, expected .csv, say"
+        )
         raise ParameterError(msg)
 
 

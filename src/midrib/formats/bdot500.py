@@ -165,11 +165,11 @@ def tops_of(feature: "_Element") -> list[Top]:
     along = gml.child(feature, ALONG)
     if tops or along is None:
         return tops
-    line = gml.line_in(along)
-    if line is None:
+    lines = gml.chains_in(along)
+    if not lines:
         msg = f"{ALONG} has fewer than two points"
         raise SlopeError(msg)
-    return [line]
+    return [*lines]
 
 
 def pair_of(feature: "_Element", start: str, end: str) -> "tuple[Floats, Floats] | None":

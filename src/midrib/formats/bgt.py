@@ -60,7 +60,7 @@ def add_slope(found: Gathered, feature: "_Element") -> None:
     if not areas:
         msg = "it has no area, expected a polygon"
         raise SlopeError(msg)
-    lines = [line for e in crests if (line := gml.line_in(e)) is not None]
+    lines = [line for e in crests for line in gml.chains_in(e)]
     if not lines:
         msg = "it lies on a slope, but has no crest line"
         raise SlopeError(msg, np.array(areas[0].exterior.coords[0]))

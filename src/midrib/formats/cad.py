@@ -129,12 +129,15 @@ def lines_on(
     """
     names = {entity.dxf.layer for entity in drawing.modelspace().query(KINDS)}
     fit = {n for n in names if any(fnmatchcase(n.lower(), p.lower()) for p in patterns)}
+    if not names:
+        msg = f"{str(path)!r} has no lines, expected {option} to name a layer with some"
+        raise ParameterError(msg)
     if not fit:
         more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
         known = listed(sorted(names)[:MOST_NAMES]) + more
         msg = (
             f"no layer of {str(path)!r} with lines is named like {' or '.join(patterns)}, "
-            f"expected {option} to name one of {known or 'none'}"
+            f"expected {option} to name one of {known}"
         )
         raise ParameterError(msg)
     return [*pieces(drawing, fit)]

@@ -96,8 +96,10 @@ FORMATS = {
 FOLDERS = tuple(f".{ending}" for ending, known in FORMATS.items() if known.is_folder)
 
 
-def format_of(path: Path) -> Format:
+def format_of(path: Path, name: str = "OUT", more: tuple[str, ...] = ()) -> Format:
     """Return the format that a file name's ending stands for.
+
+    ``name`` is what messages call the file, ``more`` are endings that somebody else takes care of.
 
     Raises
     ------
@@ -107,8 +109,8 @@ def format_of(path: Path) -> Format:
     ending = path.suffix.removeprefix(".").lower()
     if ending not in FORMATS:
         found = f"ends in {path.suffix!r}" if path.suffix else "has no ending"
-        known = ", ".join(f".{known}" for known in FORMATS)
-        msg = f"OUT {str(path)!r} {found}, expected one of {known}"
+        known = ", ".join((*more, *(f".{known}" for known in FORMATS if f".{known}" not in more)))
+        msg = f"{name} {str(path)!r} {found}, expected one of {known}"
         raise ParameterError(msg)
     return FORMATS[ending]
 

@@ -4,14 +4,16 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypeAlias
+from itertools import count
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
 from midrib.errors import InvalidAreaError
-from midrib.hatching.edges import Doubt, Edges, edges_along, edges_between, mean_width
+from midrib.formats.tops import Top, joined_tops
+from midrib.hatching.edges import NEAR, Doubt, Edges, edges_along, edges_between, mean_width
 from midrib.hatching.slope import Slope, SlopeError, SlopeProblem
 
 if TYPE_CHECKING:
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Gathered", "Top", "check_area", "is_height"]
 
-Top: TypeAlias = "tuple[Floats, Floats] | LineString"  # start and end, or all of it
 ON_EDGE = 0.01  # of the mean width: points this near are on an edge
 UNKNOWN = 0.0  # what registers write for a height that nobody has measured
 PLACE = re.compile(r"\[([-+.\deE]+) ([-+.\deE]+)")
@@ -56,22 +57,27 @@ class Gathered:
     ) -> None:
         """Keep one slope for each top of an object, on the part of the object's area that it is on.
 
+        Tops that follow each other along a part are one.
         ``slope`` makes it from its name, its area and its edges.
         """
-        taken: list[int] = []
-        for side, top in enumerate(tops, start=1):
-            own = f"{identifier}/{side}" if len(tops) > 1 else identifier
-            k = int(np.argmin([off(area, top) for area in areas]))
-            taken.append(k)
-            with self.refusing(own):
-                edges = edges_of(check_area(areas[k]), top)
-                if k not in taken[:-1]:
-                    self.add(slope(own, areas[k], edges), edges.doubts)
-                elif not edges.top.is_closed:  # a hole is the top of all sides at once
-                    msg = "two tops are on the same part of its area, expected a part for each side"
-                    raise SlopeError(msg, shapely.get_coordinates(edges.top)[0])
+        on_part: dict[int, list[Top]] = {}
+        for top in tops:
+            nearest = int(np.argmin([off(area, top) for area in areas]))
+            on_part.setdefault(nearest, []).append(top)
+        joined = {k: joined_tops(areas[k], some) for k, some in on_part.items()}
+        n_sides = sum(len(some) for some, _ in joined.values())
+        sides = count(1)
+        for k, (some, doubts) in joined.items():
+            for i, top in enumerate(some):
+                own = f"{identifier}/{next(sides)}" if n_sides > 1 else identifier
+                with self.refusing(own):
+                    edges = edges_of(check_area(areas[k]), top)
+                    if i == 0:
+                        self.add(slope(own, areas[k], edges), [*edges.doubts, *doubts])
+                    elif not edges.top.is_closed:  # a hole is the top of all sides at once
+                        raise another_top(areas[k], top, some[:i])
         for k, area in enumerate(areas):
-            if k not in taken:
+            if k not in on_part:
                 with self.refusing(identifier):
                     msg = f"part {k + 1} of {len(areas)} of its area has no top"
                     raise SlopeError(msg, shapely.get_coordinates(area)[0])
@@ -115,6 +121,26 @@ def off(area: Polygon, top: Top) -> float:
     """How far a top is from the boundary of an area, in all."""
     corners = shapely.get_coordinates(top) if isinstance(top, LineString) else np.array(top)
     return float(shapely.distance(shapely.points(corners[:, :2]), area.boundary).sum())
+
+
+def another_top(area: Polygon, top: Top, others: Sequence[Top]) -> SlopeError:
+    """Say that a top is on a part of an area that has others, and how far from them."""
+    apart, near = min(distance(top, other) for other in others), NEAR * mean_width(area)
+    msg = (
+        f"two tops are on the same part of its area, {apart:.3g} apart, expected a part for each "
+        f"side, or {near:.3g} at most"
+    )
+    start = shapely.get_coordinates(top)[0] if isinstance(top, LineString) else top[0]
+    return SlopeError(msg, start)
+
+
+def distance(top: Top, other: Top) -> float:
+    """How far two tops are apart; of those with start and end, those points are."""
+    first, second = (
+        one if isinstance(one, LineString) else shapely.multipoints(np.array(one)[:, :2])
+        for one in (top, other)
+    )
+    return float(shapely.distance(first, second))
 
 
 def edges_of(area: Polygon, top: Top) -> Edges:

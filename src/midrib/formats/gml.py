@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "areas_in",
+    "chains_in",
     "child",
     "features",
     "identifier",
@@ -44,6 +45,7 @@ GEOMETRIES = (
     "CompositeCurve",
     "CompositeSurface",
 )
+COLLECTIONS = ("MultiCurve", "MultiLineString")
 ROUND = ("Arc", "ArcString", "Circle")
 ARC_DEVIATION = 1e-3  # of the radius: what a chord is off its arc at most
 SAFE: dict[str, bool] = {
@@ -166,6 +168,14 @@ def line_in(element: etree._Element) -> LineString | None:
     """Line of an element, its pieces in one; None if it has fewer than two points."""
     points = chain(element, system_in(element))
     return LineString(points) if len(np.unique(points, axis=0)) > 1 else None
+
+
+def chains_in(element: etree._Element) -> list[LineString]:
+    """Lines of an element: each member of a collection for itself, all else in one."""
+    names = (f"{{*}}{name}" for name in ("curveMember", "curveMembers", "lineStringMember"))
+    members = [e for e in element.iter(*names) if local(e.getparent()) in COLLECTIONS]
+    lines = (line_in(one) for e in members or [[element]] for one in e)
+    return [line for line in lines if line is not None]
 
 
 def lines_in(element: etree._Element) -> list[LineString]:

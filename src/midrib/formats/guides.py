@@ -12,6 +12,7 @@ from shapely import LineString
 
 from midrib.errors import ParameterError
 from midrib.formats.reading import layer_names, listed, open_layer
+from midrib.formats.tops import joined_tops
 
 if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Geometries, Source
@@ -30,11 +31,20 @@ class Guides(ABC):
         """Polylines of each feature of a batch, the longest first; why some cannot be read."""
 
     def of(self, batch: "Batch") -> tuple["Geometries", dict[int, str]]:
-        """Polyline or None of each feature of a batch, the longest; why some cannot be read."""
+        """Polyline or None of each feature of a batch; why some cannot be read.
+
+        Of several it is the longest, once those that follow each other along the area are joined.
+        """
         lines, unreadable = self.all_of(batch)
         found = np.full(len(lines), None, dtype=object)
-        found[:] = [some[0] if some else None for some in lines]
+        for k, (area, some) in enumerate(zip(batch.geometries, lines, strict=True)):
+            found[k] = max(joined_tops(area, some)[0], key=length, default=None)
         return found, unreadable
+
+
+def length(line: LineString) -> float:
+    """Length of a line."""
+    return float(line.length)
 
 
 def guides_for(main: str | None, path: Path, source: "Source", option: str = "--main") -> Guides:

@@ -6,14 +6,22 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
-from shapely import LineString, Polygon
+from shapely import LineString, MultiPolygon, Point, Polygon
 
 from midrib.errors import ParameterError
 from midrib.formats.bdot500 import kind_of
 from midrib.formats.gathering import Gathered, check_area
 from midrib.formats.guides import guides_for
 from midrib.formats.pairs import add_pairs
-from midrib.formats.reading import choose_layer, column_names, layer_names, listed, open_layer
+from midrib.formats.reading import (
+    choose_layer,
+    column_names,
+    driver_of,
+    layer_names,
+    listed,
+    may_hold_areas,
+    open_layer,
+)
 from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
 
 if TYPE_CHECKING:
@@ -29,7 +37,7 @@ __all__ = ["Hints", "read_layer"]
 IDENTIFIERS = ("gml_id", "id", "ident", "lokalnyId", "fid", "ogc_fid")
 # Tops of each feature of a batch, or why they cannot be read; points of each.
 Finder: TypeAlias = "Callable[[Batch], list[list[Top] | str]]"
-Points: TypeAlias = "Callable[[Batch], list[list[Floats]]]"
+Points: TypeAlias = "Callable[[Batch], list[list[Floats] | str]]"
 
 
 class Hints(NamedTuple):
@@ -68,6 +76,7 @@ KNOWN = (
     Hints("OT_Skarpa", start="OT_poczatekGorySkarpy:gml_id", end="OT_koniecGorySkarpy:gml_id"),
     Hints("talud", top="kruinlijn:gml_id"),
 )
+TURNING = ("ESRI Shapefile", "OpenFileGDB")  # formats that do not keep the order of rings
 KINDS_OF_LAYERS: dict[str, SlopeKind] = {"talud": "slope-unreinforced"}
 
 
@@ -88,7 +97,19 @@ def read_layer(path: Path, hints: Hints) -> tuple[list[Slope], list[SlopeProblem
         tops = tops_for(hints, path, source)
         for batch in source.batches():
             add_batch(found, source, batch, tops(batch))
+        driver = driver_of(path, source.layer)
+    if hints.start is not None and driver in TURNING:
+        doubt_ways(found, driver)
     return found.result()
+
+
+def doubt_ways(found: Gathered, driver: str) -> None:
+    """Doubt all tops that lead from a start to an end: the ring may have led the other way."""
+    reason = f"{driver} turns every ring clockwise: which edge leads from start to end is lost"
+    for slope in found.slopes:
+        if not slope.top.is_closed:
+            where = Point(slope.top.coords[0][:2])
+            found.problems.append(SlopeProblem(slope.id, "orientation", reason, where))
 
 
 def add_lines(found: Gathered, path: Path, hints: Hints) -> None:
@@ -129,12 +150,20 @@ def with_known(path: Path, hints: Hints) -> Hints:
     if hints.top is not None or hints.start is not None:
         return hints
     layers = layer_names(path)
+    with_areas = [name for name, kind in layers.items() if may_hold_areas(kind)]
     for known in KNOWN:
-        for layer in layers if hints.layer is None else [hints.layer]:
-            names = {*layers, *column_names(path, layer)}
-            if known.layer in {None, layer} and known.names <= names:
-                return known._replace(layer=layer)
-    msg = f"IN {str(path)!r} does not tell the tops of its areas, expected top, or start and end"
+        fit = [
+            layer
+            for layer in (with_areas if hints.layer is None else [choose_layer(path, hints.layer)])
+            if known.layer in {None, layer} and known.names <= {*layers, *column_names(path, layer)}
+        ]
+        if fit:
+            return known._replace(layer=fit[0] if len(fit) == 1 else choose_layer(path, None))
+    layer = choose_layer(path, hints.layer)
+    msg = (
+        f"IN {str(path)!r} does not tell the tops of its areas: layer {layer!r} has the fields "
+        f"{listed(column_names(path, layer)) or 'none'}, expected top, or start and end"
+    )
     raise ParameterError(msg)
 
 
@@ -151,7 +180,8 @@ def add_batch(
             if not told or isinstance(told, str):
                 msg = str(told or "it has no top")
                 raise SlopeError(msg, place_of(geometry))
-            parts = [*shapely.get_parts(geometry)] if geometry else [check_area(geometry)]
+            is_whole = isinstance(geometry, MultiPolygon) and not geometry.is_empty
+            parts = [*geometry.geoms] if is_whole else [check_area(geometry)]
             found.add_sides(identifier, parts, told, maker(source, said))
 
 
@@ -188,14 +218,30 @@ def tops_for(hints: Hints, path: Path, source: "Source") -> Finder:
     ends = points_for(str(hints.end), "end", path, source)
 
     def between(batch: "Batch") -> "list[list[Top] | str]":
-        return [
-            list(zip(first, last, strict=True))
-            if len(first) == len(last)
-            else f"its top has {len(first)} starts and {len(last)} ends, expected as many"
-            for first, last in zip(starts(batch), ends(batch), strict=True)
-        ]
+        pairs = zip(starts(batch), ends(batch), strict=True)
+        return [paired(first, last) for first, last in pairs]
 
     return between
+
+
+def paired(starts: "list[Floats] | str", ends: "list[Floats] | str") -> "list[Top] | str":
+    """Tops from their starts to their ends, or what is wrong with them."""
+    if isinstance(starts, str) or isinstance(ends, str):
+        return starts if isinstance(starts, str) else str(ends)
+    if len(starts) != len(ends):
+        return f"its top has {len(starts)} starts and {len(ends)} ends, expected as many"
+    return [*zip(starts, ends, strict=True)]
+
+
+def place_in(values: tuple[object, ...], fields: list[str]) -> "list[Floats] | str":
+    """Point of two fields, none if one is empty, or why it is none."""
+    if None in values:
+        return []
+    try:
+        return [np.array([float(str(value)) for value in values])]
+    except ValueError:
+        found = " and ".join(repr(value) for value in values)
+        return f"its fields {' and '.join(fields)} hold {found}, expected two numbers"
 
 
 def points_for(text: str, option: str, path: Path, source: "Source") -> Points:
@@ -210,13 +256,13 @@ def points_for(text: str, option: str, path: Path, source: "Source") -> Points:
     columns = [name.strip() for name in text.split(",")]
     if len(columns) == 2 and {*columns} <= {*fields}:
         return lambda batch: [
-            [np.array(pair)] if None not in pair else []
+            place_in(pair, columns)
             for pair in zip(*(batch.attributes[name].to_pylist() for name in columns), strict=True)
         ]
     layer, _, key = text.rpartition(":")
     if layer in layers and key in fields:
         points = points_by_key(path, layer, key)
-        return lambda batch: [points[value] for value in batch.attributes[key].to_pylist()]
+        return lambda batch: [[*points[value]] for value in batch.attributes[key].to_pylist()]
     msg = (
         f"{option} is {text!r}, expected two fields X,Y of layer {source.layer!r} "
         f"({listed(fields)}) or a layer of points and a common field, LAYER:ID"

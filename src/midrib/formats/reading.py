@@ -17,6 +17,7 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
+from midrib.formats.endings import PARQUET
 from midrib.formats.geoparquet import geo_column
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Source",
     "choose_layer",
     "column_names",
+    "driver_of",
     "layer_names",
     "open_layer",
 ]
@@ -90,8 +92,10 @@ class Source:
             first += batch.num_rows
 
 
-def layer_names(path: Path) -> dict[str, str | None]:
+def layer_names(path: Path, name: str = "IN") -> dict[str, str | None]:
     """Layers of a file and the kind of geometry each declares, None for a table without.
+
+    ``name`` is what messages call the file.
 
     Raises
     ------
@@ -99,16 +103,24 @@ def layer_names(path: Path) -> dict[str, str | None]:
         If the file is missing or is not a vector file.
     """
     if not path.exists():
-        msg = f"IN {str(path)!r} does not exist"
+        msg = f"{name} {str(path)!r} does not exist"
         raise ParameterError(msg)
     try:
         if path.suffix.lower() in PARQUET_ENDINGS:
             return {path.stem: geo_column(pq.read_schema(path).metadata, path).kind}
         with without_m():
-            return {str(name): kind for name, kind in pyogrio.list_layers(path)}
+            return {str(layer): kind for layer, kind in pyogrio.list_layers(path)}
     except UNREADABLE:
-        msg = f"IN {str(path)!r} cannot be read as a vector file"
+        msg = f"{name} {str(path)!r} cannot be read as a vector file"
         raise ParameterError(msg) from None
+
+
+def driver_of(path: Path, layer: str) -> str:
+    """Return GDAL's name of the format that a layer is read from, ``"Parquet"`` for that."""
+    if path.suffix.lower() in PARQUET_ENDINGS:
+        return PARQUET
+    with without_m():
+        return str(pyogrio.read_info(path, layer=layer)["driver"])
 
 
 def column_names(path: Path, layer: str | int = 0) -> list[str]:
@@ -122,15 +134,17 @@ def column_names(path: Path, layer: str | int = 0) -> list[str]:
         return []
 
 
-def choose_layer(path: Path, layer: str | None) -> str:
+def choose_layer(path: Path, layer: str | None, name: str = "IN") -> str:
     """Name of the layer with areas to read: the one that is asked for, else the only one.
+
+    ``name`` is what messages call the file.
 
     Raises
     ------
     ParameterError
         If there is no such layer, none with areas, or a choice of several.
     """
-    layers = layer_names(path)
+    layers = layer_names(path, name)
     if layer is not None:
         if layer not in layers:
             msg = f"--layer is {layer!r}, expected a layer of IN {str(path)!r}: {listed(layers)}"
@@ -139,14 +153,15 @@ def choose_layer(path: Path, layer: str | None) -> str:
             msg = f"--layer {layer!r} holds {layers[layer] or 'no geometries'}, expected areas"
             raise ParameterError(msg)
         return layer
-    with_areas = [name for name, kind in layers.items() if may_hold_areas(kind)]
+    with_areas = [known for known, kind in layers.items() if may_hold_areas(kind)]
     if len(with_areas) == 1:
         return with_areas[0]
     if with_areas:
-        msg = f"IN {str(path)!r} has several layers, choose one with --layer: {listed(with_areas)}"
+        wanted = "choose one with --layer" if name == "IN" else "expected one"
+        msg = f"{name} {str(path)!r} has several layers, {wanted}: {listed(with_areas)}"
         raise ParameterError(msg)
     held = ", ".join(sorted({kind or "no geometries" for kind in layers.values()})) or "nothing"
-    msg = f"IN {str(path)!r} holds {held}, expected areas (Polygon or MultiPolygon)"
+    msg = f"{name} {str(path)!r} holds {held}, expected areas (Polygon or MultiPolygon)"
     raise ParameterError(msg)
 
 

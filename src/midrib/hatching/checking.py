@@ -27,6 +27,8 @@ CHECKS = {
     "swapped": "the top is lower than the toe",
     "off-ring": "an edge, or its start or end, is off the boundary",
     "orientation": "it is doubtful which edge is the top",
+    "pieces": "the top is stored in pieces: they were joined, or one was left out",
+    "pairs": "lines alone do not tell which top goes with which toe",
     "unmatched": "strokes are left out or cut short, or there is none, in some place",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
@@ -110,7 +112,8 @@ def check_slopes(
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
     doubted = {finding.id for finding in found if finding.check == "orientation"}
-    standards_named(standard)  # refuses an unknown one before any work is done
+    for known in standards_named(standard):  # refuses an unknown one before any work is done
+        known.at(scale)
     for slope in slopes:
         interrupts.check()
         found += heights(slope)

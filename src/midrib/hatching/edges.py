@@ -31,7 +31,7 @@ SAMPLES = np.array([0.25, 0.5, 0.75])  # where it shows which way round the ring
 class Doubt(NamedTuple):
     """Why edges may not be what was meant."""
 
-    kind: str  # "off-ring" or "orientation"
+    kind: str  # one of the checks: "off-ring", "orientation", "pieces", "pairs"
     reason: str
     where: Point
 

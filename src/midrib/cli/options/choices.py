@@ -10,6 +10,7 @@ __all__ = [
     "Holes",
     "Letter",
     "Mean",
+    "SharedEdges",
     "SkipRule",
     "StartSide",
     "TowerMode",
@@ -95,6 +96,14 @@ class StartSide(StrEnum):
     right = "right"
     first = "first"
     last = "last"
+
+
+class SharedEdges(StrEnum):
+    """How slopes go together that have a top or a toe in common."""
+
+    meet = "meet"
+    between = "between"
+    apart = "apart"
 
 
 class Letter(StrEnum):

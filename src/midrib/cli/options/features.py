@@ -128,7 +128,7 @@ Standard: TypeAlias = Annotated[
     str,
     of_check(metavar="NAME", help="How the slopes would be hatched: as of [bold]midrib hatch[/]."),
 ]
-Scale: TypeAlias = Annotated[float, of_check(metavar="N", min=1.0, help="Scale of the map, 1 : N.")]
+Scale: TypeAlias = Annotated[float, of_check(metavar="N", help="Scale of the map, 1 : N.")]
 StationSpacing: TypeAlias = Annotated[
     str | None,
     of_table(

@@ -2,7 +2,7 @@
 
 from typing import Annotated, TypeAlias
 
-from midrib.cli.options.choices import DrawingRule, Letter, StartSide
+from midrib.cli.options.choices import DrawingRule, Letter, SharedEdges, StartSide
 from midrib.cli.options.panels import of_strokes
 
 __all__ = [
@@ -18,6 +18,7 @@ __all__ = [
     "Offset",
     "Pattern",
     "RuleOption",
+    "SharedStrokes",
     "ShortRatio",
     "StandardName",
     "Stiffness",
@@ -82,6 +83,14 @@ Offset: TypeAlias = Annotated[
 ]
 First: TypeAlias = Annotated[
     Letter | None, of_strokes(metavar="long|short", help="What the first stroke is.")
+]
+SharedStrokes: TypeAlias = Annotated[
+    SharedEdges,
+    of_strokes(
+        "--shared",
+        metavar="NAME",
+        help="Of slopes with a top or toe in common: meet, in step; between, half a gap on; apart.",
+    ),
 ]
 EndStrokes: TypeAlias = Annotated[
     bool,

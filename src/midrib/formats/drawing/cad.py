@@ -1,8 +1,9 @@
 """DXF: a layer for what each standard draws, in its line weight; figures as blocks.
 
-Coordinates are those of the map; lines have heights if both edges of their object have. A layout
-shows all of it at scale. Objects carry their identifier
-and the number of the stroke as extended data of the application MIDRIB.
+Coordinates are those of the map. If both edges of an object have heights, lines have those of the
+slope, figures that of their place, and fills, which are level in DXF, the mean of their outline,
+which is drawn in space around them. A layout shows all of it at scale. Objects carry their
+identifier and the number of the stroke as extended data of the application MIDRIB.
 """
 
 import re
@@ -113,9 +114,15 @@ def add_object(document: "Document", drawn: "Drawn") -> None:
         hatch = space.add_hatch(color=256, dxfattribs=attributes("symbols"))  # colour by layer
         hatch.paths.add_polyline_path(shapely.get_coordinates(area)[:-1].tolist(), is_closed=True)
         tag(hatch, int(number))
+        if drawn.relief is not None:
+            edge = attributes("symbols") | {"lineweight": 0}  # the fill is as wide as it should be
+            tag(add_chain(space, area.exterior, edge, drawn.relief), int(number))
+            heights = drawn.relief.raised(shapely.get_coordinates(area))[:-1, 2]
+            hatch.dxf.elevation = (0.0, 0.0, float(heights.mean()))
     for placed in symbols.placed:
         block = block_of(document, placed.figure)
-        for at, size, angle, number in zip(*placed[1:], strict=True):
+        places = placed.at if drawn.relief is None else drawn.relief.raised(placed.at)
+        for at, size, angle, number in zip(places, *placed[2:], strict=True):
             scales = {"xscale": size, "yscale": size, "zscale": size, "rotation": angle}
             tag(space.add_blockref(block, tuple(at), attributes("symbols") | scales), int(number))
 

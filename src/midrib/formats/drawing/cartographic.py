@@ -48,7 +48,7 @@ def check_cartographic(drawing: "Drawing") -> None:
             name = drawn.symbols.standard.name
             msg = f"OUT is .gml, but standard {name!r} has no cartographic code, expected pl-2015"
             raise ParameterError(msg)
-    if code_of(drawing.crs) is None:
+    if drawing.objects and code_of(drawing.crs) is None:
         msg = "OUT is .gml, but the CRS of IN has no code, expected one of EPSG"
         raise ParameterError(msg)
 

@@ -1,6 +1,6 @@
 """What a drawing holds: objects with their symbols, and objects that could not be drawn."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -99,6 +99,11 @@ class Drawing:
         return len({trouble.id for trouble in self.problems if trouble.kind == REFUSED})
 
     @property
+    def n_raised(self) -> int:
+        """Number of objects whose heights are known."""
+        return sum(drawn.relief is not None for drawn in self.objects)
+
+    @property
     def bounds(self) -> "Floats":
         """Least and largest x and y of everything that is drawn, zeros if there is nothing."""
         ink = [
@@ -115,7 +120,7 @@ class Drawing:
 
 def layers_of(drawing: Drawing) -> list[Features]:
     """Layers of a drawing: strokes always, others if there is something in them."""
-    flat = [drawn.symbols.flat() for drawn in drawing.objects]
+    flat = [in_space(drawing, drawn) for drawn in drawing.objects]
     layers = [
         Features(
             LINES,
@@ -131,10 +136,24 @@ def layers_of(drawing: Drawing) -> list[Features]:
             "Polygon",
             drawing.crs,
         ),
-        Features(EDGES, *edge_rows(drawing), GEOMETRY, "LineString", drawing.crs),
+        Features(EDGES, *edge_rows(drawing, flat), GEOMETRY, "LineString", drawing.crs),
         Features(PROBLEMS, *problem_rows(drawing), GEOMETRY, "Point", drawing.crs),
     ]
     return [layer for layer in layers if layer.layer == LINES or layer.geometries.size]
+
+
+def in_space(drawing: Drawing, drawn: Drawn) -> "Symbols":
+    """Return what is drawn of an object, with heights if any object has some, 0 for unknown ones.
+
+    Z for some of a layer only would leave it without a kind of geometry.
+    """
+    flat = drawn.symbols.flat()
+    if drawing.n_raised == 0:
+        return flat
+    lifted = shapely.force_3d if drawn.relief is None else drawn.relief.lifted
+    return replace(
+        flat, lines=lifted(flat.lines), areas=lifted(flat.areas), edges=lifted(flat.edges)
+    )
 
 
 def rows(drawing: Drawing, drawn: "list[tuple[Geometries, Ints]]") -> "tuple[pa.Table, Geometries]":
@@ -160,7 +179,7 @@ def rows(drawing: Drawing, drawn: "list[tuple[Geometries, Ints]]") -> "tuple[pa.
     return pa.table(table | {"length": pa.array(lengths, type=pa.float64())}), geometries
 
 
-def edge_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
+def edge_rows(drawing: Drawing, drawn: "list[Symbols]") -> "tuple[pa.Table, Geometries]":
     """Rows of the layer of outlines."""
     whose = [drawn for drawn in drawing.objects for _ in drawn.symbols.edges]
     table = {
@@ -169,7 +188,7 @@ def edge_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
         "standard": [drawn.symbols.standard.name for drawn in whose],
     }
     columns = {name: pa.array(values, type=pa.string()) for name, values in table.items()}
-    return pa.table(columns), joined([drawn.symbols.edges for drawn in drawing.objects])
+    return pa.table(columns), joined([symbols.edges for symbols in drawn])
 
 
 def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":

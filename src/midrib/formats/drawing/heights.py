@@ -9,12 +9,17 @@ t, u      the points of the top and of the toe nearest to it
         toe  ------u-----------
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import shapely
 from shapely import LineString
 
 from midrib.formats.gathering import is_height
 from midrib.types import Floats
+
+if TYPE_CHECKING:
+    from midrib.formats.reading import Geometries
 
 __all__ = ["Relief", "relief_of"]
 
@@ -35,6 +40,12 @@ class Relief:
         whole = away.sum(axis=0)
         share = np.divide(away[0], whole, out=np.zeros_like(whole), where=whole > 0.0)
         return np.column_stack([points[:, :2], height[0] + share * (height[1] - height[0])])
+
+    def lifted(self, geometries: "Geometries") -> "Geometries":
+        """Geometries on the slope with the heights of their vertices."""
+        flat = shapely.force_3d(geometries)
+        higher: Geometries = shapely.transform(flat, self.raised, include_z=True)
+        return higher
 
 
 def relief_of(top: LineString, toe: LineString) -> Relief | None:

@@ -11,6 +11,7 @@ from midrib import interrupts
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE, Drawing, Drawn, Trouble
 from midrib.formats.drawing.heights import relief_of
+from midrib.formats.drawing.sharing import in_step
 from midrib.formats.units import METRE, is_geographic, unit_of
 from midrib.hatching.draw import draw
 from midrib.hatching.keys import STROKED
@@ -20,6 +21,7 @@ from midrib.strip import Strip
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
+    from midrib.formats.drawing.sharing import Shared
     from midrib.hatching.slope import Slope, SlopeProblem
     from midrib.hatching.standards import Standard
 
@@ -34,6 +36,7 @@ def draw_slopes(
     problems: "Sequence[SlopeProblem]" = (),
     values: dict[str, Any] | None = None,
     track: "Callable[[Sequence[Slope]], Iterable[Slope]]" = iter,
+    shared: "Shared" = "meet",
     **options: Any,
 ) -> Drawing:
     """Draw slopes, walls, stairs and conveyors of a register at scale.
@@ -53,6 +56,10 @@ def draw_slopes(
         standards, those that draw strokes.
     track : function, optional
         Wraps the sequence of slopes, to show how far the work is.
+    shared : {"meet", "between", "apart"}, default "meet"
+        Of slopes with a top or a toe in common, as the sides of a dyke or a ditch: "meet" starts
+        their patterns at the same end of it, so that strokes of one kind meet where both are as
+        wide; "between" half a gap on as well; "apart" draws each as if it were alone.
     **options
         Those of ``midrib.hatch``.
 
@@ -71,9 +78,10 @@ def draw_slopes(
     unit = unit_of(crs) or METRE
     drawing = Drawing(scale, crs, unit.metres)
     drawing.problems += [Trouble(p.id, p.reason, p.where, p.kind) for p in problems]
-    for slope in track(slopes):
+    own = in_step(slopes, options, shared)
+    for slope, mine in zip(track(slopes), own, strict=True):
         interrupts.check()
-        add_slope(drawing, slope, styled(standard, slope.kind, values or {}), options)
+        add_slope(drawing, slope, styled(standard, slope.kind, values or {}), mine)
     draw_edges_once(drawing)
     return drawing
 

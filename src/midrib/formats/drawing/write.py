@@ -35,7 +35,7 @@ def places_of(path: Path) -> list[Path]:
     ending = path.suffix.lower()
     if ending in (*SHEETS, CAD, CARTOGRAPHIC):
         return [path]
-    if format_of(path).has_layers:
+    if format_of(path, more=(CAD, *SHEETS, CARTOGRAPHIC)).has_layers:
         return [path]
     return [path, *(beside(path, layer) for layer in (AREAS, EDGES, PROBLEMS))]
 
@@ -119,6 +119,9 @@ def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = Non
 def write_layers(path: Path, drawing: Drawing) -> list[str]:
     """Write the layers of a drawing, into one file if its format has layers."""
     notes: list[str] = []
+    if 0 < drawing.n_raised < len(drawing.objects):
+        unknown = len(drawing.objects) - drawing.n_raised
+        notes.append(f"heights of {unknown:,} of {len(drawing.objects):,} objects are unknown: 0")
     layers = layers_of(drawing)
     for features in layers:
         place = path if format_of(path).has_layers else beside(path, features.layer)
