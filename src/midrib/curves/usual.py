@@ -102,10 +102,15 @@ def runs_of(starts: "Ints") -> list[tuple[int, int]]:
 
 def as_geometries(found: list[Lines]) -> Usual:
     """Return the lines of several runs as geometries."""
-    sizes = np.concatenate([np.diff(lines.offsets) for lines in found])
-    is_done = np.concatenate([lines.is_done for lines in found])
-    lines: NDArray[np.object_] = np.empty(is_done.size, dtype=object)
-    points = np.concatenate([lines.points for lines in found])
-    indices = np.repeat(np.arange(np.count_nonzero(is_done)), sizes[is_done])
-    lines[is_done] = shapely.linestrings(points, indices=indices)
-    return Usual(lines, np.concatenate([lines.loops for lines in found]))
+    if len(found) == 1:  # a single area should not wait for eight copies
+        return geometries_of(found[0])
+    runs = [geometries_of(lines) for lines in found]
+    return Usual(*(np.concatenate(column) for column in zip(*runs, strict=True)))
+
+
+def geometries_of(found: Lines) -> Usual:
+    """Return the lines of a run as geometries."""
+    sizes = found.offsets[1:] - found.offsets[:-1]
+    lines: NDArray[np.object_] = np.full(sizes.size, None, dtype=object)
+    shapely.linestrings(found.points, indices=np.repeat(np.arange(sizes.size), sizes), out=lines)
+    return Usual(lines, found.loops)
