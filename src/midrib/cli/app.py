@@ -54,8 +54,8 @@ app.command(
     "others: for maps at a smaller scale.\n\n"
     "OUT has the lines, one feature from node to node, as of [bold]midrib network[/]; the parts "
     "that are wider go to a layer, or a file, …_areas, one feature a part, with the attributes of "
-    "their area and the number of the part. Each line ends in a vertex of the part it leads to. "
-    "Areas that are refused go to …_refused, with the reason.\n\n"
+    "their area, the number of the part and the status. Each line ends in a vertex of the part it "
+    "leads to. Areas that are refused go to …_refused, with the reason.\n\n"
     "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
     epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
 )(partial)
