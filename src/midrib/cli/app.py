@@ -60,7 +60,7 @@ app.command(
     epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
 )(partial)
 app.command(
-    help="Find lines for the names of areas: curves with few bends along their widest parts.\n\n"
+    help="Find lines for the names of areas: curves with few bends in their widest parts.\n\n"
     "Attributes and CRS are kept. New columns: length, height (of the text that fits there, in "
     "units of the CRS, metres if it is geographic) and status. Areas without room for the text are "
     "among those that are refused; they go to …_refused, with the reason.\n\n"

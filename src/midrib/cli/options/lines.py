@@ -185,7 +185,10 @@ LabelHeight: TypeAlias = Annotated[
     of_line("--height", metavar="LENGTH", help="Of the text; as high as fits unless given."),
 ]
 Aspect: TypeAlias = Annotated[
-    float, of_line(metavar="N", help="Length over height of the text, where neither is given.")
+    float | None,
+    of_line(
+        metavar="N", help="Length over height of the text, where neither is given.  [default: 6]"
+    ),
 ]
 PointCount: TypeAlias = Annotated[
     int | None, of_line("--count", metavar="N", help="So many points of each line at most.")
