@@ -15,6 +15,7 @@ from midrib.cli.partial import partial
 from midrib.cli.points import points
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
+from midrib.cli.skeleton import skeleton
 from midrib.cli.tower import tower
 
 __all__ = ["app"]
@@ -49,6 +50,16 @@ app.command(
     epilog="Examples:\n\nmidrib network streets.gpkg lines.gpkg --layer carriageway --dissolve\n\n"
     "midrib network rivers.gpkg lines.parquet --min-branch-length 200m",
 )(network)
+app.command(
+    help="Find the skeletons of areas: every branch, one feature each, with its distance to the "
+    "boundary.\n\n"
+    "Attributes and CRS are kept. New columns: branch (number in the skeleton), tips (how many of "
+    "its ends are dead ends), length, radius_min and radius_max (in units of the CRS, metres if it "
+    "is geographic) and status. Areas that are refused go to …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib skeleton lakes.gpkg axes.gpkg --radius m --min-significance 1.5\n\n"
+    "midrib skeleton roofs.gpkg ridges.gpkg --method straight-skeleton",
+)(skeleton)
 app.command(
     help="Collapse the parts of areas that are narrower than a width to lines, and keep the "
     "others: for maps at a smaller scale.\n\n"

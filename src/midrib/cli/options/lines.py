@@ -29,6 +29,7 @@ __all__ = [
     "Significance",
     "Simplify",
     "SkeletonMethod",
+    "SkeletonSignificance",
     "SkipOption",
     "Smooth",
     "Spacing",
@@ -174,6 +175,15 @@ Significance: TypeAlias = Annotated[
         metavar="N",
         help="Leave out dead ends that reach less than so many radii from their junction; a "
         "corner reaches 1.41.",
+    ),
+]
+SkeletonSignificance: TypeAlias = Annotated[
+    float | None,
+    of_line(
+        "--min-significance",
+        metavar="N",
+        help="Leave out dead ends that reach less than so many radii from their junction: 1.5 for "
+        "corners, 3 for all but arms. None unless you say so.",
     ),
 ]
 LabelLength: TypeAlias = Annotated[
