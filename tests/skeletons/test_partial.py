@@ -112,6 +112,23 @@ def test_a_pond_that_ends_a_canal_or_has_a_brook_is_kept(pond: Polygon) -> None:
     assert not check(pond_on_canal(pond).union(box(-0.1, -30, 0.1, 0)), 9.5).areas.is_empty
 
 
+def test_a_brook_makes_no_crossing_of_a_pond() -> None:
+    brooks = [box(x - 0.1, -30, x + 0.1, 0) for x in (-0.7, 0.6)]
+    pond = pond_on_canal(box(-1.6, -1.6, 1.6, 1.6))
+    assert not check(pond, 3.1).areas.is_empty
+    assert not check(shapely.union_all([pond, *brooks]), 3.1).areas.is_empty
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("away", [2.2, 2.8, 3.3])
+def test_a_path_that_leaves_a_road_does_not_narrow_it(away: float, side: float) -> None:
+    paths = [box(x - 0.05, 0, x + 0.05, 30 * side) for x in (-away, away) if side > 0]
+    paths += [box(x - 0.05, -30, x + 0.05, 0) for x in (-away, away) if side < 0]
+    paths += [box(0, y - 0.05, 30, y + 0.05) for y in (-away,)]
+    tee = shapely.union_all([box(-20, -1, 20, 1), box(-1, -20, 1, 0), *paths])
+    assert check(tee, 2.2).areas.is_empty
+
+
 def test_what_is_little_wider_is_kept_if_it_is_long() -> None:
     for length, is_kept in ((1.0, False), (4.0, True)):
         river = pond_on_canal(box(-length, -1.2, length, 1.2))
