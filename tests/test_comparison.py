@@ -11,7 +11,7 @@ from shapely import LineString, Point, Polygon, affinity, box
 import midrib
 from midrib.comparison import compare
 from midrib.errors import GeometryTypeError, ParameterError
-from midrib.figures.comparison import draw_comparison
+from midrib.figures.comparison import COLOURS, draw_comparison
 
 L_SHAPE = Polygon([(0, 0), (10, 0), (10, 3), (3, 3), (3, 12), (0, 12)])
 NECK = shapely.union_all([
@@ -109,3 +109,24 @@ def test_panels_keep_their_shape() -> None:
             size = np.array([place.width, place.height]) * figure.get_size_inches()
             low, high = np.array(axes.get_xlim()), np.array(axes.get_ylim())
             assert size[0] / size[1] == pytest.approx(np.ptp(low) / np.ptp(high), rel=0.02)
+
+
+def test_lines_on_each_other_are_all_seen() -> None:
+    """Where lines coincide the dashes of each method are in the gaps of the others."""
+    pytest.importorskip("matplotlib")
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.colors import to_rgb
+
+    names = ["minimal-radii", "medial-axis", "chordal-axis"]
+    figure = draw_comparison(compare(box(0, 0, 9, 2), names))
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()  # type: ignore[no-untyped-call]
+    panel = figure.axes[-1].get_window_extent()
+    pixels = np.asarray(canvas.buffer_rgba())  # type: ignore[no-untyped-call]
+    picture = pixels[::-1, :, :3] / 255.0
+    inside = picture[int(panel.y0) : int(panel.y1), int(panel.x0) : int(panel.x1)]
+    seen = [
+        int((np.abs(inside - to_rgb(colour)).max(axis=2) < 0.05).sum())
+        for colour in COLOURS[: len(names)]
+    ]
+    assert min(seen) > 0.5 * max(seen) > 20

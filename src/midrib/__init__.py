@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.network import network
     from midrib.curves.partial import Partial, partial_collapse
-    from midrib.curves.skeletons import Skeleton, skeleton
+    from midrib.curves.skeleton import Skeleton, skeleton
     from midrib.curves.space import SpaceCurve, minimal_radii_3d
     from midrib.formats.drawing.slopes import draw_slopes
     from midrib.formats.drawing.write import write_drawing
@@ -80,7 +80,7 @@ HOME = {
     "Partial": "midrib.curves.partial",
     "Problem": "midrib.curves.collapse",
     "Profile": "midrib.profiles",
-    "Skeleton": "midrib.curves.skeletons",
+    "Skeleton": "midrib.curves.skeleton",
     "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
     "Standard": "midrib.hatching.standards",
@@ -100,7 +100,7 @@ HOME = {
     "partial_collapse": "midrib.curves.partial",
     "profile": "midrib.profiles",
     "read_slopes": "midrib.formats.slopes",
-    "skeleton": "midrib.curves.skeletons",
+    "skeleton": "midrib.curves.skeleton",
     "split": "midrib.strip",
     "standard": "midrib.hatching.standards",
     "standards": "midrib.hatching.standards",

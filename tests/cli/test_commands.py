@@ -49,7 +49,7 @@ COMMANDS = {
     "profile": ["profile", "IN", "OUT", "--quiet"],
     "standards": ["standards"],
 }
-OTHERS = {"compare", "label", "network", "partial", "points"}  # have tests of their own
+OTHERS = {"compare", "label", "network", "partial", "points", "skeleton"}  # have tests of their own
 OF_SLOPES = {"hatch"}  # commands that take slopes: see test_hatch.py
 OF_POINTS = {"tower"}  # commands that take clouds: see test_tower.py
 

@@ -23,6 +23,7 @@ NAMES = (
     "partial",
     "points",
     "profile",
+    "skeleton",
     "standards",
     "tower",
 )

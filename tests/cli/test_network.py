@@ -1,4 +1,4 @@
-"""The commands ``midrib network`` and ``midrib partial``."""
+"""The commands ``midrib network``, ``midrib partial`` and ``midrib skeleton``."""
 
 from pathlib import Path
 
@@ -133,3 +133,23 @@ def test_the_width_is_needed_and_is_a_length(midrib: Runner, tmp_path: Path) -> 
     options = ("--narrower-than", "3", "--min-length", "8")
     assert midrib("partial", source, out, *options).code == 0
     assert shapely.area(read_all(out, "some_areas")[2]).tolist() == [42]
+
+
+def test_a_skeleton_is_a_feature_for_each_branch(midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [CROSS, BOW_TIE, EAST]), tmp_path / "out.gpkg"
+    pruned = ("--min-significance", 1.5, "--method", "straight-skeleton")
+    outcome = midrib("skeleton", source, out, "--radius", "m", *pruned)
+    assert outcome.code == 1
+    _, rows, lines = read_all(out, "some")
+    assert rows["number"].to_pylist() == [0, 0, 0, 0, 2]
+    assert rows["branch"].to_pylist() == [0, 1, 2, 3, 0]
+    assert rows["tips"].to_pylist() == [1, 1, 1, 1, 2]
+    assert rows["length"].to_numpy() == pytest.approx(shapely.length(lines))
+    for line, low, high in zip(lines, rows["radius_min"], rows["radius_max"], strict=True):
+        radius = shapely.get_coordinates(line, include_m=True)[:, 2]
+        assert [radius.min(), radius.max()] == [low.as_py(), high.as_py()]
+    _, refused, _ = read_all(out, "some_refused")
+    assert refused.num_rows == 1
+    assert midrib("skeleton", source, tmp_path / "all.gpkg", "--overwrite").code == 1
+    assert len(read_all(tmp_path / "all.gpkg", "some")[2]) > len(lines)
+    assert midrib("skeleton", source, out, "--overwrite", "--method", "mean-curve").code == 2

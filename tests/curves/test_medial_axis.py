@@ -28,7 +28,7 @@ def checked(area: Polygon, **options: Any) -> Skeleton:
     Radii are distances to the boundary; it is inside, and in one piece; it goes round every ring
     or group of rings that touch but one; it ends in convex vertices, each of them once.
     """
-    found = skeleton(area, "medial-axis", **options)
+    found: midrib.Skeleton = skeleton(area, "medial-axis", **options)
     size = np.hypot(area.bounds[2] - area.bounds[0], area.bounds[3] - area.bounds[1])
     distance = shapely.distance(shapely.points(found.points), area.boundary)
     assert found.radius == pytest.approx(distance, abs=1e-9 * size)

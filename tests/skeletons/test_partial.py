@@ -91,12 +91,62 @@ def test_a_pond_in_a_road_is_kept() -> None:
     assert [x for x in ends if abs(x) < 19] == pytest.approx([-mouth, mouth], abs=0.01)
 
 
-@pytest.mark.parametrize("width", [2.2, 2.4, 2.6, 2.9])
+def pond_on_canal(pond: Polygon) -> Polygon:
+    """Pond about the origin on a canal 2 wide."""
+    return shapely.union_all([box(-40, -1, 40, 1), pond])
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7, 0.79, 0.81, 0.9, 0.99])
+@pytest.mark.parametrize("pond", [box(-5, -5, 5, 5), Point(0, 0).buffer(5, quad_segs=64)])
+def test_a_pond_is_kept_up_to_its_own_width(pond: Polygon, share: float) -> None:
+    found = check(pond_on_canal(pond), share * 10.0)
+    assert found.areas.area == pytest.approx(pond.area, rel=0.25)
+    assert len(found.lines.geoms) == (2 if share > 0.2 else 0)
+    assert check(pond_on_canal(pond), 10.1).areas.is_empty
+
+
+@pytest.mark.parametrize("pond", [box(-5, -5, 5, 5), Point(0, 0).buffer(5, quad_segs=64)])
+def test_a_pond_that_ends_a_canal_or_has_a_brook_is_kept(pond: Polygon) -> None:
+    end = shapely.union_all([box(0, -1, 40, 1), pond])
+    assert not check(end, 9.5).areas.is_empty
+    assert not check(pond_on_canal(pond).union(box(-0.1, -30, 0.1, 0)), 9.5).areas.is_empty
+
+
+def test_a_brook_makes_no_crossing_of_a_pond() -> None:
+    brooks = [box(x - 0.1, -30, x + 0.1, 0) for x in (-0.7, 0.6)]
+    pond = pond_on_canal(box(-1.6, -1.6, 1.6, 1.6))
+    assert not check(pond, 3.1).areas.is_empty
+    assert not check(shapely.union_all([pond, *brooks]), 3.1).areas.is_empty
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("away", [2.2, 2.8, 3.3])
+def test_a_path_that_leaves_a_road_does_not_narrow_it(away: float, side: float) -> None:
+    paths = [box(x - 0.05, 0, x + 0.05, 30 * side) for x in (-away, away) if side > 0]
+    paths += [box(x - 0.05, -30, x + 0.05, 0) for x in (-away, away) if side < 0]
+    paths += [box(0, y - 0.05, 30, y + 0.05) for y in (-away,)]
+    tee = shapely.union_all([box(-20, -1, 20, 1), box(-1, -20, 1, 0), *paths])
+    assert check(tee, 2.2).areas.is_empty
+
+
+def test_what_is_little_wider_is_kept_if_it_is_long() -> None:
+    for length, is_kept in ((1.0, False), (4.0, True)):
+        river = pond_on_canal(box(-length, -1.2, length, 1.2))
+        assert check(river, 2.3).areas.is_empty != is_kept
+
+
+@pytest.mark.parametrize("width", [2.01, 2.2, 2.4, 2.6, 2.9, 4.0])
 def test_where_roads_meet_there_is_no_area(width: float) -> None:
     """Discs at the junctions of roads are 1.25 and 1.41 times as wide as the roads."""
-    roads = [box(-20, -1, 20, 1), box(-9, 0, -7, 15), box(7, -15, 9, 15)]
-    found = check(shapely.union_all(roads), width, min_length=6.0)
-    assert found.areas.is_empty == (width > 2.3)
+    sides = [box(-9, 0, -7, 15), box(7, -15, 9, 15)]
+    slant = affinity.rotate(box(-50, -1, 50, 1), 35, origin=(30, 0))
+    roads = shapely.union_all([box(-20, -1, 60, 1), *sides, slant])
+    assert check(roads, width).areas.is_empty
+    square = shapely.union_all([box(-20, -1, 60, 1), *sides, box(20, -15, 22, 15)])
+    rounded = square.buffer(1.2, join_style="mitre").buffer(-1.2)
+    assert check(rounded, width).areas.is_empty
+    path = roads.union(box(0, 0, 0.4, 20))  # a narrow one makes no pond of a broad one
+    assert check(path, width).areas.is_empty
 
 
 def test_an_island_is_gone_round_by_what_is_narrow() -> None:
@@ -117,6 +167,28 @@ def test_short_parts_go_with_what_is_beside_them() -> None:
     assert check(river, 2.2, min_length=0.5).areas.area == pytest.approx(4.8, rel=0.2)
 
 
+@pytest.mark.parametrize("width", [3.0, 3.3])
+def test_no_line_between_two_cuts_is_too_short(width: float) -> None:
+    """The neck is as narrow for longer than it is between the cuts."""
+    lakes = [Point(x, 0).buffer(10, quad_segs=64) for x in (-10.4, 10.4)]
+    area = shapely.union_all([*lakes, box(-5, -1, 5, 1)])
+    whole = check(area, width, min_length=0.05).lines.length
+    assert 0.05 < whole < 6.0
+    assert check(area, width, min_length=0.99 * whole).lines.length == pytest.approx(whole)
+    assert check(area, width, min_length=1.01 * whole).lines.is_empty
+
+
+def test_a_cut_that_fails_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("midrib.curves.dividing.cut_across", lambda *_: None)
+    areas = MultiPolygon([box(20, 0, 30, 9), affinity.translate(DUMBBELL, 0, 50)])
+    found, (problem,) = partial_collapse(areas, 3.0, on_error="report")
+    assert found.areas.equals(areas)
+    assert (problem.index, problem.part, problem.status) == (0, 1, "uncut")
+    x, y = map(float, problem.reason.split("(")[1].split(")")[0].split(", "))
+    assert areas.covers(Point(x, y))
+    assert partial_collapse(areas, 3.0).lines.is_empty
+
+
 def test_of_short_parts_the_narrow_ones_go_first() -> None:
     """A way that is wide and narrow by turns, every half unit, is wide as a whole."""
     x = np.arange(41) / 2.0
@@ -124,8 +196,8 @@ def test_of_short_parts_the_narrow_ones_go_first() -> None:
     middle = np.where(np.arange(40) % 2, 0.95, 1.05)
     graph = Graph(np.column_stack([x, 0.0 * x]), edges, np.full(41, 1.0))
     parts = Parts(graph, middle < 1.0, middle)
-    assert not parts_of(parts, 1.0, 3.0, (1.0, 1.0)).is_narrow.any()
-    assert parts_of(parts, 1.0, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
+    assert not parts_of(parts, 3.0, (1.0, 1.0)).is_narrow.any()
+    assert parts_of(parts, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
 
 
 def test_a_door_in_a_wall_without_thickness_is_no_part() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 from hypothesis import given
-from shapely import LineString, MultiLineString, Point, Polygon, affinity, box
+from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon, affinity, box
 
 import midrib
 from midrib import skeleton
@@ -65,7 +65,7 @@ def test_a_chordal_axis_goes_round_every_hole_once(area: Polygon) -> None:
 @given(areas)
 def test_a_chordal_axis_leads_through_the_middles_of_chords(area: Polygon) -> None:
     found = skeleton(area, "chordal-axis")
-    corners = np.column_stack([found.layout.mesh.x, found.layout.mesh.y])
+    corners = np.column_stack([found.parts[0][1].mesh.x, found.parts[0][1].mesh.y])
     middles = (corners[:, None] + corners[None]) / 2.0
     known = np.concatenate([corners, middles.reshape(-1, 2)])
     degree = np.bincount(found.edges.ravel(), minlength=len(found.points))
@@ -229,10 +229,26 @@ def test_absurd_spacings_are_refused() -> None:
 
 
 def test_what_is_no_area_is_refused() -> None:
-    with pytest.raises(GeometryTypeError, match="area is a Point"):
+    with pytest.raises(GeometryTypeError, match=r"areas\[0\]: is a Point"):
         skeleton(Point(0, 0))
-    with pytest.raises(InvalidAreaError, match="is not valid"):
+    with pytest.raises(InvalidAreaError, match="more than one way"):
         skeleton(Polygon([(0, 0), (1, 1), (1, 0), (0, 1)]))
+
+
+def test_arrays_of_skeletons_are_like_each_alone() -> None:
+    both = MultiPolygon([box(20, 0, 30, 4), L_SHAPE])
+    given = np.array([[L_SHAPE, None], [Polygon(), both]], dtype=object)
+    found, problems = skeleton(given, min_significance=1.5, on_error="report")
+    assert (found.shape, problems) == ((2, 2), [])
+    assert found[0, 1] is found[1, 0] is None
+    alone = [skeleton(a, min_significance=1.5) for a in (both.geoms[0], L_SHAPE)]
+    assert found[0, 0].lines.equals_exact(alone[1].lines, 0.0)
+    assert found[1, 1].lines.equals(shapely.union_all([one.lines for one in alone]))
+    assert found[1, 1].radius.tolist() == [r for one in alone for r in one.radius]
+    assert list(found[1, 1].trunk.geoms) == [one.trunk for one in alone]
+    bow_tie = Polygon([(0, 0), (1, 1), (1, 0), (0, 1)])
+    (one, none), (problem,) = skeleton([L_SHAPE, bow_tie], on_error="report")
+    assert (one.area, none, problem.index) == (L_SHAPE, None, 1)
 
 
 def test_necks_narrower_than_the_spacing_are_named() -> None:

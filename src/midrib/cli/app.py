@@ -15,6 +15,7 @@ from midrib.cli.partial import partial
 from midrib.cli.points import points
 from midrib.cli.profile import profile
 from midrib.cli.shown import show
+from midrib.cli.skeleton import skeleton
 from midrib.cli.tower import tower
 
 __all__ = ["app"]
@@ -50,17 +51,27 @@ app.command(
     "midrib network rivers.gpkg lines.parquet --min-branch-length 200m",
 )(network)
 app.command(
+    help="Find the skeletons of areas: every branch, one feature each, with its distance to the "
+    "boundary.\n\n"
+    "Attributes and CRS are kept. New columns: branch (number in the skeleton), tips (how many of "
+    "its ends are dead ends), length, radius_min and radius_max (in units of the CRS, metres if it "
+    "is geographic) and status. Areas that are refused go to …_refused, with the reason.\n\n"
+    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    epilog="Examples:\n\nmidrib skeleton lakes.gpkg axes.gpkg --radius m --min-significance 1.5\n\n"
+    "midrib skeleton roofs.gpkg ridges.gpkg --method straight-skeleton",
+)(skeleton)
+app.command(
     help="Collapse the parts of areas that are narrower than a width to lines, and keep the "
     "others: for maps at a smaller scale.\n\n"
     "OUT has the lines, one feature from node to node, as of [bold]midrib network[/]; the parts "
     "that are wider go to a layer, or a file, …_areas, one feature a part, with the attributes of "
-    "their area and the number of the part. Each line ends in a vertex of the part it leads to. "
-    "Areas that are refused go to …_refused, with the reason.\n\n"
+    "their area, the number of the part and the status. Each line ends in a vertex of the part it "
+    "leads to. Areas that are refused go to …_refused, with the reason.\n\n"
     "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
     epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
 )(partial)
 app.command(
-    help="Find lines for the names of areas: curves with few bends along their widest parts.\n\n"
+    help="Find lines for the names of areas: curves with few bends in their widest parts.\n\n"
     "Attributes and CRS are kept. New columns: length, height (of the text that fits there, in "
     "units of the CRS, metres if it is geographic) and status. Areas without room for the text are "
     "among those that are refused; they go to …_refused, with the reason.\n\n"

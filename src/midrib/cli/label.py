@@ -13,7 +13,7 @@ def label(
     layer: cli.Layer = None,
     length: cli.LabelLength = None,
     height: cli.LabelHeight = None,
-    aspect: cli.Aspect = 6.0,
+    aspect: cli.Aspect = None,
     out_layer: cli.OutLayer = None,
     overwrite: cli.Overwrite = False,
     quiet: cli.Quiet = False,

@@ -27,13 +27,16 @@ class WideParts:
         self.attributes: list[pa.Table] = []
         self.areas: list[Geometries] = []
 
-    def add(self, batch: "Batch", kept: "Geometries") -> None:
+    def add(self, batch: "Batch", kept: "Geometries", status: list[str]) -> None:
         """Keep a row for each part, with the attributes of its feature."""
         areas, row = shapely.get_parts(kept, return_index=True)
         is_there = ~shapely.is_empty(areas)
         areas, row = areas[is_there], row[is_there]
         number = np.arange(row.size) - np.searchsorted(row, row)
-        columns = {"part": pa.array(number, type=pa.int64())}
+        columns = {
+            "part": pa.array(number, type=pa.int64()),
+            "status": pa.array([status[i] for i in row], type=pa.string()),
+        }
         self.attributes.append(with_columns(batch.attributes.take(row), columns))
         self.areas.append(areas)
 
@@ -66,7 +69,7 @@ def partial_layer(
     refused = dict(batch.unreadable)
     status = statuses(batch, problems, refused)
     add_pieces(results, nodes, batch, partial.lines, status, geographic)
-    wide.add(batch, partial.areas)
+    wide.add(batch, partial.areas, status)
     add_refused(results, batch, refused)
     results.n_features += len(areas)
     results.n_repaired += len({p.index for p in problems if p.status == "repaired"})

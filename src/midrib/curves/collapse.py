@@ -40,11 +40,13 @@ __all__ = ["Joint", "Problem", "collapse"]
 
 @dataclass(frozen=True)
 class Problem:
-    """What there is to say about an area: refused, repaired, loops cut, bays left out."""
+    """What there is to say about an area: refused, repaired, loops cut, bays left out, uncut."""
 
     index: Any  # position of the area, or its label in a GeoSeries
     part: int  # of a MultiPolygon, else 0
-    status: Literal["refused", "repaired", "loops cut", "bays left out", "joint", "no joint"]
+    status: Literal[
+        "refused", "repaired", "loops cut", "bays left out", "joint", "no joint", "uncut"
+    ]
     reason: str
 
 
@@ -207,7 +209,7 @@ class Log:
         self,
         index: int,
         part: int,
-        status: Literal["repaired", "loops cut", "bays left out"],
+        status: Literal["repaired", "loops cut", "bays left out", "uncut"],
         reason: str,
     ) -> None:
         """Record something about a line that is there; a strict log warns of repairs."""

@@ -24,6 +24,7 @@ from midrib.types import Bools, Floats, Ints
 __all__ = ["ControlPoints", "control_points"]
 
 LEAST = 2  # points of a line
+ALIKE = 2.0**40  # relative: an importance is the same within one part of that
 
 
 class ControlPoints(NamedTuple):
@@ -66,7 +67,7 @@ def control_points(
     line : LineString or Curve
         A simple line. Z is carried along.
     count : int, optional
-        How many at most, at least 2.
+        How many, at least 2; fewer only if the line has fewer.
     tolerance : float, optional
         Or: as few as keep all of the line within this distance of the line through them, in
         coordinate units, in metres if geographic; 0 keeps those that are not on straight pieces.
@@ -81,7 +82,10 @@ def control_points(
     -------
     ControlPoints
         ``line``, ``rows``, ``importance`` and ``points``, in the order of the line. More than
-        ``count`` only where fewer would leave the area or cross each other.
+        ``count`` only where fewer would leave the area or cross each other. Of vertices with the
+        same importance those come first that divide longer runs, then those farther from the
+        segment of their run, then those with smaller x, then y. A run
+        is divided at the first of its farthest vertices.
 
     Raises
     ------
@@ -114,20 +118,18 @@ def control_points(
     least = least_importance(count, tolerance)
     scale = degree_lengths(shapely.bounds(line)) if geographic else PLANE
     points = shapely.get_coordinates(line)
-    importance = importances(points, np.array(scale), area)
-    levels = np.unique(importance)[::-1]
-    if count is not None:
-        kept = np.array([np.count_nonzero(importance >= level) for level in levels])
-        first = max(int(np.count_nonzero(kept <= count)) - 1, 0)
-    else:
-        first = int(np.count_nonzero(levels > least)) - 1
-    for level in levels[first:]:
-        rows = np.flatnonzero(importance >= level)
+    worth = worths(points, np.array(scale), area)
+    order = order_of(worth, points)
+    wanted = len(order) if count is None else int(count)
+    if tolerance is not None:
+        wanted = int(np.count_nonzero(worth.importance > least))
+    for n in range(max(wanted, int(np.isinf(worth.importance).sum())), len(order)):
+        rows = np.sort(order[:n])
         chosen = LineString(shapely.get_coordinates(line, include_z=line.has_z)[rows])
         is_whole = chosen.is_valid and chosen.is_simple  # a ring needs three
         if is_whole and (area is None or area.covers(chosen)):
-            return ControlPoints(chosen, own[rows], importance[rows])
-    return ControlPoints(line, own, importance)
+            return ControlPoints(chosen, own[rows], worth.importance[rows])
+    return ControlPoints(line, own, worth.importance)
 
 
 def first_of_repeats(line: Any) -> Ints:
@@ -164,12 +166,41 @@ def least_importance(count: int | None, tolerance: float | None) -> float:
     return float(tolerance)
 
 
-def importances(points: Floats, scale: Floats, area: Polygon | None) -> Floats:
-    """Tolerance up to which each vertex is needed; of runs that leave the area, any."""
+class Worth(NamedTuple):
+    """What each vertex is worth."""
+
+    importance: Floats  # (n,) tolerance up to which it is needed
+    depth: Ints  # how many runs it is in before it divides one
+    off: Floats  # how far it is from the segment of the run that it divides
+
+
+def order_of(worth: Worth, points: Floats) -> Ints:
+    """Rows of vertices, those that matter most first.
+
+    Of several with the same importance those go first that divide longer runs, since others
+    depend on these; then those farther off; then those to the west, and to the south. None of
+    these rules depends on which way the line runs.
+    """
+    x, y = points.T
+    off, importance = rounded(worth.off), rounded(worth.importance)
+    order: Ints = np.lexsort([y, x, -off, worth.depth, -importance])
+    return order
+
+
+def rounded(values: Floats) -> Floats:
+    """Values without the digits in which the two ways along a line differ."""
+    mantissa, exponent = np.frexp(values)
+    found: Floats = np.ldexp(np.round(mantissa * ALIKE) / ALIKE, exponent)
+    return found
+
+
+def worths(points: Floats, scale: Floats, area: Polygon | None) -> Worth:
+    """Find what each vertex is worth; of runs that leave the area, any importance."""
     x, y = (points * scale).T.copy()
-    worth = np.full(len(points), np.inf)
-    first, last = np.array([0]), np.array([len(points) - 1])
-    limit = np.array([np.inf])
+    n = len(points)
+    worth = Worth(np.full(n, np.inf), np.zeros(n, dtype=np.intp), np.full(n, np.inf))
+    first, last = np.array([0]), np.array([n - 1])
+    limit, depth = np.array([np.inf]), 0
     if area is not None:
         area = shapely.force_2d(area)  # a copy, since it will be prepared
         shapely.prepare(area)
@@ -177,13 +208,13 @@ def importances(points: Floats, scale: Floats, area: Polygon | None) -> Floats:
         far, off = farthest_vertices(x, y, first, last)
         open_ones = far >= 0
         first, last, far = first[open_ones], last[open_ones], far[open_ones]
-        off, limit = off[open_ones], limit[open_ones]
+        off, limit, depth = off[open_ones], limit[open_ones], depth + 1
         if area is not None and first.size:
             segments = shapely.linestrings(np.stack([points[first], points[last]], axis=1))
             is_out: Bools = ~shapely.covers(area, segments)
             off = np.where(is_out, np.inf, off)
         limit = np.minimum(off, limit)
-        worth[far] = limit
+        worth.importance[far], worth.off[far], worth.depth[far] = limit, off, depth
         first, last = np.concatenate([first, far]), np.concatenate([far, last])
         limit = np.concatenate([limit, limit])
     return worth

@@ -18,10 +18,11 @@ __all__ = ["Divided", "divide_area"]
 
 
 class Divided(NamedTuple):
-    """What is wide, and lines of what is narrow."""
+    """What is wide, lines of what is narrow, and where a narrow part could not be cut off."""
 
     wide: list[Polygon]
     lines: list[Floats]
+    uncut: Floats  # (k, 2) a point of each such part
 
 
 class Way(NamedTuple):
@@ -31,19 +32,32 @@ class Way(NamedTuple):
     cuts: tuple[Cut | None, Cut | None]
 
     @property
-    def inner(self) -> Ints:
-        """Rows between the cuts."""
+    def span(self) -> tuple[int, int]:
+        """Of the rows those between the cuts."""
         first, last = self.cuts
         low = 0 if first is None else len(self.rows) - first.kept
-        high = len(self.rows) if last is None else last.kept
+        return low, len(self.rows) if last is None else last.kept
+
+    @property
+    def inner(self) -> Ints:
+        """Rows between the cuts."""
+        low, high = self.span
         return self.rows[low:high]
 
+    @property
+    def is_gone(self) -> bool:
+        """Whether nothing is between the cuts: they are one, or each is beyond the other."""
+        low, high = self.span
+        there = [cut for cut in self.cuts if cut is not None]
+        places = {frozenset(tuple(contact.point) for contact in cut.contacts) for cut in there}
+        return low > high or len(there) > len(places)
 
-def divide_area(parts: Parts, edge: Edge, radius: float, merge: float) -> Divided:
+
+def divide_area(parts: Parts, edge: Edge, radius: float, least: float, merge: float) -> Divided:
     """Cut an area where its skeleton changes between narrow and wide.
 
-    Where that is not possible, or where both ends of a way have the same cut, the narrow part
-    stays with what is beside it.
+    Where that is not possible, or where cuts leave less than the least length of it, the narrow
+    part stays with what is beside it.
 
     Parameters
     ----------
@@ -51,22 +65,27 @@ def divide_area(parts: Parts, edge: Edge, radius: float, merge: float) -> Divide
         With narrow and wide edges both.
     edge : boundary of the area
     radius : half the width asked for
+    least : length from which on a narrow part counts
     merge : see ``network_lines``
     """
+    uncut = np.empty((0, 2))
     while parts.is_narrow.any():
         narrow, ends = narrow_graph(parts)
+        label = components(len(narrow.points), narrow.edges)
         ways, failed = cut_ways(narrow, ends, edge, radius)
-        if failed.size:
-            parts = without(parts, narrow, failed)
-            continue
-        chains = [chain_of(narrow, way) for way in ways]
-        wide, rest, mixed = sorted_pieces(parts, chains, pieces_of(edge, cuts_of(ways)))
-        if mixed.size:
-            parts = without(parts, narrow, np.array([ways[k].rows[0] for k in mixed]))
-            continue
-        graph, fixed = graph_between(narrow, ways)
-        return Divided(wide, network_lines(graph, MultiPolygon(rest), scale_of(edge), merge, fixed))
-    return Divided([edge.area], [])
+        short = short_parts(narrow, label, ways, edge, least)
+        failed = np.setdiff1d(label[failed], short)
+        if failed.size == short.size == 0:
+            chains = [chain_of(narrow, way) for way in ways]
+            wide, rest, mixed = sorted_pieces(parts, chains, pieces_of(edge, cuts_of(ways)))
+            if mixed.size == 0:
+                graph, fixed = graph_between(narrow, ways)
+                lines = network_lines(graph, MultiPolygon(rest), scale_of(edge), merge, fixed)
+                return Divided(wide, lines, uncut)
+            failed = np.unique([label[ways[k].rows[0]] for k in mixed])
+        uncut = np.concatenate([uncut, narrow.points[failed]])
+        parts = without(parts, label[narrow.edges[:, 0]], np.append(failed, short))
+    return Divided([edge.area], [], uncut)
 
 
 def scale_of(edge: Edge) -> Scale:
@@ -102,17 +121,19 @@ def cut_ways(narrow: Graph, ends: Ints, edge: Edge, radius: float) -> tuple[list
             cuts.append(cut)
             if is_end and cut is None:
                 failed.append(int(way[0]))
-        if same_contacts(cuts):
-            failed.append(int(branch[0]))
         ways.append(Way(branch, (cuts[0], cuts[1])))
     return ways, np.array(failed, dtype=np.intp)
 
 
-def same_contacts(cuts: list[Cut | None]) -> bool:
-    """Whether two cuts are one: nothing is between them."""
-    there = [cut for cut in cuts if cut is not None]
-    places = {frozenset(tuple(contact.point) for contact in cut.contacts) for cut in there}
-    return len(there) > len(places)
+def short_parts(narrow: Graph, label: Ints, ways: list[Way], edge: Edge, least: float) -> Ints:
+    """Labels of the narrow parts whose ways are together shorter between their cuts."""
+    run = np.zeros(len(label))
+    for way in ways:
+        steps = np.diff(chain_of(narrow, way), axis=0) * edge.scale
+        run[label[way.rows[0]]] += 0.0 if way.is_gone else np.hypot(*steps.T).sum()
+    own = np.unique(label[narrow.edges])
+    short: Ints = own[run[own] < least]
+    return short
 
 
 def cuts_of(ways: list[Way]) -> list[Cut]:
@@ -120,12 +141,10 @@ def cuts_of(ways: list[Way]) -> list[Cut]:
     return [cut for way in ways for cut in way.cuts if cut is not None]
 
 
-def without(parts: Parts, narrow: Graph, points: Ints) -> Parts:
-    """Parts without the narrow ones that some points of their graph are of."""
-    label = components(len(narrow.points), narrow.edges)
-    is_gone = np.isin(label[narrow.edges[:, 0]], label[points])
+def without(parts: Parts, label: Ints, gone: Ints) -> Parts:
+    """Parts without some of the narrow ones, by the labels of their edges."""
     is_narrow = parts.is_narrow.copy()
-    is_narrow[np.flatnonzero(is_narrow)[is_gone]] = False
+    is_narrow[np.flatnonzero(is_narrow)[np.isin(label, gone)]] = False
     return parts._replace(is_narrow=is_narrow)
 
 

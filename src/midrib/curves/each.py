@@ -12,7 +12,7 @@ from midrib.geodesy import degree_lengths
 from midrib.strip import PLANE
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from shapely import Polygon
 
@@ -25,9 +25,14 @@ Found = TypeVar("Found")
 
 
 def in_each_part(
-    taken: "Taken", log: Log, find: "Callable[[Polygon, Scale], Found]"
+    taken: "Taken",
+    log: Log,
+    find: "Callable[[Polygon, Scale], Found]",
+    uncut: "Callable[[Found], Iterable[str]]" = lambda _: (),
 ) -> list[list[Found]]:
     """Find something in the parts of each area; nothing where they are refused or there are none.
+
+    What ``uncut`` says of it is noted.
 
     Interrupts are looked for between areas.
     """
@@ -39,7 +44,11 @@ def in_each_part(
             try:
                 bounds = np.asarray(shapely.bounds(part.polygon))
                 scale = degree_lengths(bounds) if taken.geographic else PLANE
-                found[part.area].append(find(part.polygon, scale))
+                here = find(part.polygon, scale)
             except MidribError as error:
                 log.refuse(part.area, part.number, error)
+                continue
+            found[part.area].append(here)
+            for reason in uncut(here):
+                log.note(part.area, part.number, "uncut", reason)
     return found

@@ -8,11 +8,14 @@ from shapely import LineString
 from midrib.curves.collapse import Log, check_on_error
 from midrib.curves.each import in_each_part
 from midrib.curves.finding import Finder
+from midrib.curves.graphs import pruned
 from midrib.curves.labels import Label, Wanted, best_label
 from midrib.curves.methods import finder_of
 from midrib.curves.partial import positive
+from midrib.curves.skeletons import graph_finder
+from midrib.curves.spines import spines_of
 from midrib.curves.taking import take
-from midrib.errors import InvalidAreaError
+from midrib.errors import InvalidAreaError, ParameterError
 from midrib.ragged import pack_areas
 
 if TYPE_CHECKING:
@@ -21,6 +24,9 @@ if TYPE_CHECKING:
     from midrib.layout import Scale
 
 __all__ = ["Labels", "label_line"]
+
+ASPECT = 6.0  # of a name of some ten letters
+NO_CORNER = 1.5  # radii that a branch reaches, corners reach 1.41
 
 
 class Labels(NamedTuple):
@@ -43,11 +49,11 @@ def label_line(
     *,
     length: float | None = None,
     height: float | None = None,
-    aspect: float = 6.0,
+    aspect: float | None = None,
     on_error: Literal["raise", "report"] = "raise",
     geographic: bool | None = None,
 ) -> Any:
-    """Find lines for the names of areas: curves with few bends along their widest parts.
+    """Find lines for the names of areas: curves with few bends in their widest parts.
 
     Parameters
     ----------
@@ -56,8 +62,8 @@ def label_line(
     length, height : float, optional
         Of the text, in coordinate units, in metres if geographic. With one of them the other is as
         large as it can be, with neither both are, in the proportion ``aspect``.
-    aspect : float, default 6
-        Length over height, where neither is given.
+    aspect : float, optional
+        Length over height, where neither is given; 6 unless you say otherwise.
     on_error : {"raise", "report"}, default "raise"
         ``"report"`` returns ``(labels, problems)``, as ``midrib.collapse`` does; areas without room
         for the text are refused.
@@ -82,10 +88,13 @@ def label_line(
 
     Notes
     -----
-    Polynomials of degree 1 to 3 along stretches of the line of ``midrib.collapse`` are tried, some
-    thousands, and then more about the best one. A plainer one is taken unless one with more bends
-    leaves room for text a twentieth larger. No text is bent with a radius of less than 1.5 times
-    its height. O(m log m + k m) for m vertices and k candidates.
+    Polynomials of degree 1 to 3 are tried along stretches of the line of ``midrib.collapse``, of
+    ways of the medial axis through the three widest places, and of the level lines through these:
+    some thousands, and then more about the best one. A name is read eastwards, or upwards where it
+    is steeper than 70 degrees; a level one is taken unless another leaves room for more by a ninth,
+    and of one that is upside down or falls steeply for a part much less. A plainer one is taken
+    unless one with more bends leaves room for text a twentieth larger. No text is bent with a
+    radius of less than 1.5 times its height. O(m log m + k m) for m vertices and k candidates.
 
     Examples
     --------
@@ -96,11 +105,18 @@ def label_line(
     check_on_error(on_error)
     sizes = {"length": length, "height": height}
     checked = {name: None if v is None else positive(v, name) for name, v in sizes.items()}
-    wanted = Wanted(checked["length"], checked["height"], positive(aspect, "aspect"))
-    trunk_of = finder_of("minimal-radii")
+    given = [name for name, value in checked.items() if value is not None]
+    if aspect is not None and given:
+        msg = f"aspect is given beside {' and '.join(given)}, expected one or the other"
+        raise ParameterError(msg)
+    proportion = ASPECT if aspect is None else positive(aspect, "aspect")
+    wanted = Wanted(checked["length"], checked["height"], proportion)
+    trunk_of, graph_of = finder_of("minimal-radii"), graph_finder("medial-axis")
 
     def find(area: "Polygon", scale: "Scale") -> Label:
-        return best_label(area, trunk_line(trunk_of, area, scale), scale, wanted)
+        graph = pruned(graph_of(area, scale)[0], scale, 0.0, NO_CORNER)
+        spines = [trunk_line(trunk_of, area, scale), *spines_of(graph, area, scale)]
+        return best_label(area, spines, scale, wanted)
 
     taken = take(areas, geographic)
     log = Log(taken.labels, strict=on_error == "raise")

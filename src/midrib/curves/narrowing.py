@@ -4,10 +4,10 @@
     narrow               less
     change               a point where it is just that, between a wide and a narrow edge
 
-A part, of edges that hang together, counts if it is long, and a wide one also if it is clearly
-wider than that; else it goes with what is beside it, the narrow parts first. So nothing flickers
-where an area is about as wide as asked for, and the places where roads meet are no areas of their
-own.
+A part, of edges that hang together, counts if it is long, and a wide one also if it stands out from
+what leads to it; else it goes with what is beside it, the narrow parts first. So nothing flickers
+where an area is about as wide as asked for, ponds stay, and the places where roads meet are no
+areas of their own: their discs add nothing to the length of a wide part.
 """
 
 from collections.abc import Callable
@@ -15,13 +15,13 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from midrib.curves.contrast import length_outside_junctions, peaks_of, stands_out
 from midrib.curves.graphs import Graph
 from midrib.layout import Scale
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Parts", "Radii", "divided_at", "parts_of"]
 
-CLEARLY = 1.25  # times wider or narrower: as a T of two roads is than these
 SHARE = 0.25  # of the radius asked for, between places where an edge is looked at
 MOST_PLACES = 64  # on an edge
 ROUNDS = 40  # of halving the interval that a change is in
@@ -93,29 +93,30 @@ def changes(graph: Graph, radius: float, radii: Radii, scale: Scale) -> tuple[In
     return edge[found], np.where(swap, other, one), np.where(swap, one, other)
 
 
-def parts_of(parts: Parts, radius: float, least: float, scale: Scale) -> Parts:
+def parts_of(parts: Parts, least: float, scale: Scale) -> Parts:
     """Let parts that do not count go with what is beside them.
 
     Parameters
     ----------
     parts : Parts
-    radius : half the width asked for
     least : length from which on a part counts
     scale : lengths of one unit of x and of y
     """
     graph, is_narrow = parts.graph, parts.is_narrow.copy()
     steps = graph.points[graph.edges[:, 1]] - graph.points[graph.edges[:, 0]]
     length = np.hypot(*(steps * scale).T)
-    is_clear = np.append(parts.middle[:, None], graph.radius[graph.edges], axis=1).max(axis=1)
-    is_clear = is_clear >= CLEARLY * radius
     for narrow in (True, False):
         own = np.flatnonzero(is_narrow == narrow)
         if own.size in (0, is_narrow.size):
             continue
-        part = components(len(graph.points), graph.edges[own])[graph.edges[own, 0]]
-        counts = np.bincount(part, length[own]) >= least
+        label = components(len(graph.points), graph.edges[own])
+        part = label[graph.edges[own, 0]]
+        counted = length if narrow else length_outside_junctions(graph, length, scale)
+        counts = np.bincount(part, counted[own], len(label)) >= least
         if not narrow:
-            counts |= np.bincount(part, is_clear[own]) > 0
+            at = np.setdiff1d(graph.edges[own], np.flatnonzero(~peaks_of(graph)))
+            at = at[~counts[label[at]]]
+            counts[label[at[stands_out(graph, length, at)]]] = True
         is_narrow[own[~counts[part]]] = not narrow
     return parts._replace(is_narrow=is_narrow)
 

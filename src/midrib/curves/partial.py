@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Partial", "partial_collapse"]
 
+NOWHERE = np.empty((0, 2))
 FINE = 1e-3  # of the width: arcs of the medial axis are within that
 
 
@@ -66,16 +67,19 @@ def partial_collapse(
         The width, in coordinate units, in metres if geographic: twice the distance from the
         skeleton to the boundary.
     min_length : float, optional
-        A narrow part counts from this length on, all ways of the skeleton in it together; so does
-        a wide one, or one that is 1.25 times as wide somewhere. Others go with what is beside them,
-        the narrow ones first. As long as the width unless you say otherwise.
+        A narrow part counts from this length on, all ways of the skeleton in it together, between
+        the cuts; so does a wide one, but for what is in the discs around junctions, or one that
+        stands out: it is somewhere 1.4 times as wide as the widest way out within three radii, or
+        twice where three ways leave. Others go with what is beside them, the narrow ones first. As
+        long as the width unless you say otherwise.
     method : str, default "medial-axis"
         One of those of ``midrib.methods()`` that have branches.
     merge, min_branch_length, min_significance
         Of the network of lines, as in ``midrib.network``. A dead end that is left out stays in the
         area that it is of.
     on_error : {"raise", "report"}, default "raise"
-        ``"report"`` returns ``(partial, problems)``, as ``midrib.collapse`` does.
+        ``"report"`` returns ``(partial, problems)``, as ``midrib.collapse`` does; a narrow part
+        that could not be cut off, and so has stayed an area, is a problem with the status "uncut".
     geographic : bool, optional
         Whether coordinates are degrees of longitude and latitude. Taken from the CRS of a
         GeoSeries, otherwise False.
@@ -133,21 +137,21 @@ def partial_collapse(
         def radii(points: "Floats") -> "Floats":
             return radii_of(coordinates, offsets, points, scale)
 
-        parts = parts_of(divided_at(pruned, width / 2.0, radii, scale), width / 2.0, least, scale)
+        parts = parts_of(divided_at(pruned, width / 2.0, radii, scale), least, scale)
         if not parts.is_narrow.any():
-            return Divided([area], [])
+            return Divided([area], [], NOWHERE)
         if parts.is_narrow.all():
             lines = lines_of_graph(whole, pruned, layout, area, float(merge))
-            return Divided([], [with_heights(layout, line) for line in lines])
-        found = divide_area(parts, edge_of(area, scale), width / 2.0, float(merge))
+            return Divided([], [with_heights(layout, line) for line in lines], NOWHERE)
+        found = divide_area(parts, edge_of(area, scale), width / 2.0, least, float(merge))
         lines = [with_heights(layout, line) for line in found.lines]
-        return Divided([lifted(layout, piece) for piece in found.wide], lines)
+        return Divided([lifted(layout, piece) for piece in found.wide], lines, found.uncut)
 
     taken = take(areas, geographic)
     log = Log(taken.labels, strict=on_error == "raise")
     flat = taken.array.ravel()
     kept, lines = flat.copy(), flat.copy()
-    for i, pieces in enumerate(in_each_part(taken, log, find)):
+    for i, pieces in enumerate(in_each_part(taken, log, find, reasons)):
         is_empty = flat[i] is not None and flat[i].is_empty
         wide = [area for piece in pieces for area in piece.wide]
         chains = [shapely.linestrings(line) for piece in pieces for line in piece.lines]
@@ -155,6 +159,11 @@ def partial_collapse(
         lines[i] = MultiLineString(chains) if pieces or is_empty else None
     partial = Partial(taken.given_back(kept), taken.given_back(lines))
     return partial if on_error == "raise" else (partial, log.problems)
+
+
+def reasons(found: Divided) -> list[str]:
+    """Say where narrow parts could not be cut off."""
+    return [f"the narrow part at ({x:.12g}, {y:.12g}) has stayed an area" for x, y in found.uncut]
 
 
 def positive(value: Any, name: str) -> float:

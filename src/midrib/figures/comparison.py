@@ -17,13 +17,14 @@ from midrib.strip import PLANE, divide
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.lines import Line2D
 
     from midrib.comparison import Compared, Comparison
     from midrib.figures.curves import Sketch
 
 __all__ = ["COLOURS", "draw_comparison"]
 
-FINE, STEP = 0.25, 0.15  # millimetres: the finest of several lines, how much wider the next one is
+THIN, THICK, DASH = 0.15, 0.55, 2.4  # millimetres: lines where all are drawn, and their dashes
 COLOURS = ("#111111", "#d1495b", "#2e86ab", "#1e9e58", "#e08a00", "#8e44ad", "#00a3b4", "#7a5c3e")
 TITLE, GAP, FOOTER = 7.0, 4.0, 6.0  # millimetres
 FLAT = 2.2  # width over height from which on panels stand below each other
@@ -86,6 +87,7 @@ def draw_comparison(
         else:
             draw_all(axes, rows)
     figure.legend(
+        handles=keys_of(rows),
         loc="lower left",
         bbox_to_anchor=(GAP / width, 1.0 / height),
         ncols=len(rows),
@@ -128,20 +130,38 @@ def draw_row(axes: "Axes", comparison: "Comparison", row: "Compared") -> None:
 
 
 def draw_all(axes: "Axes", rows: "list[Compared]") -> None:
-    """Draw all lines, named for the legend; each is wider than those that lie on it."""
+    """Draw all lines: thin ones, with dashes that take turns.
+
+    Where lines lie on each other the dashes of each are in the gaps of the others.
+    """
     title(axes, "all", "")
-    widths = FINE + STEP * np.arange(len(rows))[::-1]
-    for row, colour, width in zip(rows, colours_of(rows), widths, strict=True):
-        if row.line is not None:
-            points = shapely.get_coordinates(row.line)
+    keys = keys_of(rows)
+    lines = [row.line for row in rows if row.line is not None]
+    for k, (line, key) in enumerate(zip(lines, keys, strict=True)):
+        points = shapely.get_coordinates(line)
+        for width, dashes in ((THIN, False), (THICK, True)):
+            on, gap = DASH / width, (len(keys) - 1) * DASH / width  # in line widths
             axes.plot(
                 *points.T,
-                color=colour,
+                color=key.get_color(),
                 lw=width / POINT,
-                label=row.method,
+                ls=(-k * on, (on, gap)) if dashes and gap else "-",
+                dash_capstyle="butt",
+                zorder=2.0 + dashes,
                 scalex=False,
                 scaley=False,
             )
+
+
+def keys_of(rows: "list[Compared]") -> "list[Line2D]":
+    """Lines of the legend."""
+    from matplotlib.lines import Line2D
+
+    return [
+        Line2D([], [], color=colour, lw=THICK / POINT, label=row.method)
+        for row, colour in zip(rows, colours_of(rows), strict=True)
+        if row.line is not None
+    ]
 
 
 def colours_of(rows: "list[Compared]") -> list[str]:

@@ -29,6 +29,7 @@ __all__ = [
     "Significance",
     "Simplify",
     "SkeletonMethod",
+    "SkeletonSignificance",
     "SkipOption",
     "Smooth",
     "Spacing",
@@ -176,6 +177,15 @@ Significance: TypeAlias = Annotated[
         "corner reaches 1.41.",
     ),
 ]
+SkeletonSignificance: TypeAlias = Annotated[
+    float | None,
+    of_line(
+        "--min-significance",
+        metavar="N",
+        help="Leave out dead ends that reach less than so many radii from their junction: 1.5 for "
+        "corners, 3 for all but arms. None unless you say so.",
+    ),
+]
 LabelLength: TypeAlias = Annotated[
     str | None,
     of_line("--length", metavar="LENGTH", help="Of the text; as long as fits unless given."),
@@ -185,7 +195,10 @@ LabelHeight: TypeAlias = Annotated[
     of_line("--height", metavar="LENGTH", help="Of the text; as high as fits unless given."),
 ]
 Aspect: TypeAlias = Annotated[
-    float, of_line(metavar="N", help="Length over height of the text, where neither is given.")
+    float | None,
+    of_line(
+        metavar="N", help="Length over height of the text, where neither is given.  [default: 6]"
+    ),
 ]
 PointCount: TypeAlias = Annotated[
     int | None, of_line("--count", metavar="N", help="So many points of each line at most.")

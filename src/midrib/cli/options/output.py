@@ -14,6 +14,7 @@ __all__ = [
     "Overwrite",
     "PaperSize",
     "Quiet",
+    "Radius",
     "ReportTitle",
     "TableFigure",
     "TowerOut",
@@ -35,6 +36,14 @@ Width: TypeAlias = Annotated[
         metavar="columns|m",
         help="Where the width along the line is written. columns: its mean and maximum; m: "
         "beside them, as the M value of every vertex.",
+    ),
+]
+Radius: TypeAlias = Annotated[
+    WidthPlace,
+    of_output(
+        metavar="columns|m",
+        help="Where the distance to the boundary is written. columns: the least and the greatest "
+        "of each branch; m: beside them, as the M value of every vertex.",
     ),
 ]
 OutLayer: TypeAlias = Annotated[
