@@ -8,6 +8,7 @@ from shapely import MultiPolygon, Point, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.bare import bare_stretches
+from midrib.hatching.bounds import Laid, excesses
 from midrib.hatching.chains import Chain
 from midrib.hatching.matching import Drawn
 from midrib.hatching.rule import Rule
@@ -43,12 +44,14 @@ def finish(
     first: str | None,
     zones: Any,
     strip: Strip,
-    edges: tuple[Chain, Chain] | None,
+    curves: tuple[Chain, tuple[Chain, Chain]] | None,
+    offset: float,
 ) -> Finished:
     """Decide what is drawn.
 
-    The pattern counts the strokes that have a place, whether a zone hides them or not. With edges,
-    the strokes are kept apart, and stretches of the edges that are bare are told.
+    The pattern counts the strokes that have a place, whether a zone hides them or not. With curves,
+    the middle line and the edges, strokes are kept apart, and where edges are bare or a bound is
+    exceeded is told.
     """
     problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
     if not drawn.kept.size:
@@ -62,7 +65,7 @@ def finish(
         problems.append(Problem(Point(middle), reason))
     problems += too_narrow(drawn, kept, strip)
     gap = rule.gaps(width)
-    if edges is not None:
+    if curves is not None:
         kept &= ~too_near(drawn, kept, gap, problems)
     is_long = np.zeros(kept.size, dtype=np.bool_)
     letters = pattern_from(rule.pattern, first)
@@ -70,13 +73,19 @@ def finish(
     # What is drawn of a short one is not shorter than the shortest stroke either.
     short = np.clip(least / np.maximum(width, TINY), rule.short_ratio, 1.0)
     share = np.where(is_long, 1.0, short)
-    if edges is not None:
+    if curves is not None:
         shorten(drawn, kept & is_long, gap, share, problems)
         ends = drawn.on_top[kept], drawn.on_toe[kept], drawn.feet[kept]
-        for bare in bare_stretches(edges, rule, *ends, least):
+        for bare in bare_stretches(curves[1], rule, *ends, least):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
             problems.append(Problem(bare.where, reason))
-    hide(drawn, kept, share, zones, strip, problems)
+    meet_islands(drawn, kept, share, strip, problems)
+    if curves is not None:
+        problems += beyond_bounds(drawn, kept, is_long, share, rule, curves, offset)
+    if zones is not None:
+        rows = np.flatnonzero(kept)
+        lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
+        kept[rows[shapely.intersects(lines, zones)]] = False
     return Finished(kept, is_long, share, problems)
 
 
@@ -144,23 +153,35 @@ def off(points: Floats, i: int, j: int) -> float:
     return float(np.hypot(points[j, 0] - points[i, 0], points[j, 1] - points[i, 1]))
 
 
-def hide(
-    drawn: Drawn, kept: Bools, share: Floats, zones: Any, strip: Strip, problems: list[Problem]
+def meet_islands(
+    drawn: Drawn, kept: Bools, share: Floats, strip: Strip, problems: list[Problem]
 ) -> None:
-    """Leave out strokes that enter a zone or meet an island."""
+    """Leave out strokes that meet an island."""
     islands = islands_of(strip)
-    if not islands and zones is None:
+    if not islands:
         return
     rows = np.flatnonzero(kept)
     lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
-    if zones is not None:
-        kept[rows[shapely.intersects(lines, zones)]] = False
     for island in islands:
         for row in rows[shapely.intersects(lines, island)]:
             if kept[row]:
                 kept[row] = False
                 reason = "an island of the slope is in the way; one stroke is left out"
                 problems.append(Problem(Point(drawn.middle[row]), reason))
+
+
+def beyond_bounds(
+    drawn: Drawn, kept: Bools, is_long: Bools, share: Floats, rule: Rule,
+    curves: tuple[Chain, tuple[Chain, Chain]], offset: float,
+) -> list[Problem]:  # fmt: skip
+    """Tell where strokes exceed a bound, but between two of which one is left out: that is told."""
+    rows = np.flatnonzero(kept)
+    on_top, on_toe = drawn.on_top[rows], drawn.on_toe[rows]
+    laid = Laid(
+        curves[0], curves[1], drawn.station[rows], drawn.feet[rows], on_top, on_toe,
+        rule.gaps(np.hypot(*(on_toe - on_top).T)), is_long[rows] & (share[rows] == 1.0),
+    )  # fmt: skip
+    return [Problem(found.where, found.reason) for found in excesses(laid, offset)]
 
 
 def islands_of(strip: Strip) -> list[Polygon]:

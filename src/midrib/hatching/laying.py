@@ -33,12 +33,17 @@ class Found(NamedTuple):
     ground: Ground
 
     def trouble(self, rule: Rule) -> Bools:
-        """Which strokes had to be mended, or are not a gap from a neighbour, or turn too far."""
+        """Which strokes are left out, or beside a neighbour that is not a gap away or turned too far.
+
+        What was mended and keeps the bounds all the same is no trouble.
+        """
         strokes, ground = self.strokes, self.ground
-        found: Bools = ~self.kept | (strokes.pivot[:, 4] != strokes.pivot[:, 3])
+        found: Bools = ~self.kept
         ratios = ratios_of(strokes, ground, rule)
         is_off = abs(np.log(ratios / np.median(ratios))) > UNEVEN
         is_off |= turns_of(strokes, ground) > MOST_TURN
+        feet = feet_of(strokes, ground, rule)
+        is_off |= ((feet < LEAST_FOOT) | (feet > MOST_FOOT)).any(axis=1)
         found[: is_off.size] |= is_off
         found[(np.flatnonzero(is_off) + 1) % found.size] = True
         return found

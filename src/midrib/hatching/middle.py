@@ -51,6 +51,12 @@ class Middle(NamedTuple):
         return float(np.hypot(*np.diff(self.line, axis=0).T).sum())
 
     @property
+    def chain(self) -> Edge:
+        """The line with its stations."""
+        steps = np.hypot(*np.diff(self.line, axis=0).T)
+        return Edge(self.line, np.append(0.0, np.cumsum(steps)), self.is_closed)
+
+    @property
     def edges(self) -> tuple[Edge, Edge]:
         """Top and toe as polylines with the stations that strokes have."""
         corners = np.column_stack([self.mesh.x, self.mesh.y])
