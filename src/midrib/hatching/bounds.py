@@ -15,7 +15,7 @@ from shapely import Point
 from midrib.hatching.chains import Chain
 from midrib.types import Bools, Floats
 
-__all__ = ["Excess", "Laid", "excesses", "turn_allowed"]
+__all__ = ["Excess", "Laid", "excesses", "strain", "turn_allowed"]
 
 SPACING = (0.8, 1.25)  # gaps between neighbours on the middle line
 EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, and straight
@@ -83,8 +83,8 @@ class Laid(NamedTuple):
         width, count = np.maximum(self.width, np.roll(self.width, -1)), len(self.between)
         return turn_allowed(line, (station + step / 2.0)[:count], width[:count], self.between)
 
-    def tilts(self) -> Floats:
-        """Degrees from the normal of the top; NaN near corners.
+    def normals(self) -> Floats:
+        """Directions of the normals of the top towards the toe, in degrees; NaN near corners.
 
         That is where an edge turns by more than 10 degrees within two widths to either side, or
         the two are not parallel but for 10 degrees.
@@ -93,10 +93,14 @@ class Laid(NamedTuple):
         top, toe = (
             directions(edge, at, width) for edge, at in zip(self.edges, self.feet.T, strict=True)
         )
-        across = np.degrees(np.arctan2(*(self.on_toe - self.on_top).T[::-1]))
         calm = (spread(top) <= STRAIGHT) & (spread(toe) <= STRAIGHT)
         calm &= abs(folded(top[:, 2] - toe[:, 2], 360.0)) <= STRAIGHT
-        return np.where(calm, abs(folded(across - top[:, 2] - 90.0, 180.0)), np.nan)
+        return np.where(calm, top[:, 2] + 90.0, np.nan)
+
+    def tilts(self) -> Floats:
+        """Degrees from the normal of the top; NaN near corners."""
+        across = np.degrees(np.arctan2(*(self.on_toe - self.on_top).T[::-1]))
+        return abs(folded(across - self.normals(), 180.0))
 
     def end_gaps(self) -> Floats:
         """Distances along the middle line from its ends to the next stroke, in gaps."""
@@ -106,6 +110,26 @@ class Laid(NamedTuple):
         away = np.array([self.station[first], self.middle.length - self.station[last]])
         gaps: Floats = away / self.asked[[first, last]]
         return gaps
+
+
+def strain(laid: Laid) -> tuple[Floats, Floats]:
+    """How far beyond the bounds neighbours are, and strokes by themselves; 0 within.
+
+    Of gaps and feet it is the logarithm of what they are off, of turns and tilts radians.
+    """
+    steps, feet = laid.steps, laid.nearest_feet()
+    k, on_toe = len(steps), np.flatnonzero(laid.on_edge)
+    with np.errstate(divide="ignore"):
+        off = abs(np.log(steps / np.sqrt(SPACING[0] * SPACING[1])))
+        beyond = np.maximum(off - np.log(SPACING[1] / SPACING[0]) / 2.0, 0.0)
+        for edge in (0, 1):
+            beyond += np.log(np.maximum(laid.foot_steps(edge) / EDGE_GAP, 1.0))
+        near = np.log(np.maximum(LEAST_FOOT / feet, 1.0))
+    beyond += near[:k]
+    beyond[on_toe[: len(feet) - k]] += near[k:]
+    beyond += np.radians(np.maximum(laid.turns() - laid.turns_allowed(), 0.0))
+    tilts = np.nan_to_num(laid.tilts())
+    return beyond, np.radians(np.maximum(tilts - MOST_TILT, 0.0))
 
 
 class Excess(NamedTuple):

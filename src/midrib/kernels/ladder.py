@@ -29,7 +29,17 @@ from midrib.kernels.paths import walk
 from midrib.kernels.tables import with_rows
 from midrib.types import Floats, Ints
 
-__all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at", "turn_rungs"]
+__all__ = [
+    "Ladder",
+    "Spacing",
+    "Strokes",
+    "build_ladder",
+    "draw_strokes",
+    "draw_turned",
+    "follow",
+    "gap_at",
+    "turn_rungs",
+]
 
 RUNGS = 8.0  # for each gap
 MOST_RUNGS = 2**24
@@ -319,6 +329,12 @@ def draw_strokes(ladder: Ladder, stations: Floats, rule: Spacing) -> Strokes:
 
     An end that lies on the wrong edge is for ``mend`` to see to.
     """
+    return draw_turned(ladder, stations, np.zeros(stations.size), rule)
+
+
+@njit(entry=True)
+def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) -> Strokes:
+    """Draw whole strokes at stations, in increasing order, turned from the ladder's directions."""
     rungs, at, line, arc = ladder.rungs, ladder.at, ladder.line, ladder.arc
     n = stations.size
     strokes = Strokes(
@@ -334,9 +350,9 @@ def draw_strokes(ladder: Ladder, stations: Floats, rule: Spacing) -> Strokes:
             ladder.ground.mesh, line, arc, at[j, 0], at[j, 1], rungs[j, X], rungs[j, Y], tau
         )
         theta = rungs[j, THETA] + share * (rungs[j + 1, THETA] - rungs[j, THETA])
-        chord = shoot(ladder.ground, t, x, y, theta)
+        chord = shoot(ladder.ground, t, x, y, theta + turns[i])
         strokes.pivot[i, 0], strokes.pivot[i, 1], strokes.pivot[i, 2] = tau, x, y
-        strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta
+        strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta + turns[i]
         strokes.pivot[i, 5] = gap_at(rule, chord.width)
         strokes.triangle[i] = t
         write_chord(strokes, i, chord)
