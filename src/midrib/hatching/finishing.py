@@ -8,8 +8,7 @@ from shapely import MultiPolygon, Point, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.bare import bare_stretches
-from midrib.hatching.bounds import Laid, excesses
-from midrib.hatching.chains import Chain
+from midrib.hatching.bounds import Curves, Laid, excesses
 from midrib.hatching.matching import Drawn
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
@@ -44,7 +43,7 @@ def finish(
     first: str | None,
     zones: Any,
     strip: Strip,
-    curves: tuple[Chain, tuple[Chain, Chain]] | None,
+    curves: Curves | None,
     offset: float,
 ) -> Finished:
     """Decide what is drawn.
@@ -76,7 +75,7 @@ def finish(
     if curves is not None:
         shorten(drawn, kept & is_long, gap, share, problems)
         ends = drawn.on_top[kept], drawn.on_toe[kept], drawn.feet[kept]
-        for bare in bare_stretches(curves[1], rule, *ends, least):
+        for bare in bare_stretches((curves.top, curves.toe), rule, *ends, least):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
             problems.append(Problem(bare.where, reason))
     meet_islands(drawn, kept, share, strip, problems)
@@ -172,15 +171,14 @@ def meet_islands(
 
 def beyond_bounds(
     drawn: Drawn, kept: Bools, is_long: Bools, share: Floats, rule: Rule,
-    curves: tuple[Chain, tuple[Chain, Chain]], offset: float,
+    curves: Curves, offset: float,
 ) -> list[Problem]:  # fmt: skip
     """Tell where strokes exceed a bound, but between two of which one is left out: that is told."""
     rows = np.flatnonzero(kept)
-    on_top, on_toe = drawn.on_top[rows], drawn.on_toe[rows]
-    laid = Laid(
-        curves[0], curves[1], drawn.station[rows], drawn.feet[rows], on_top, on_toe,
-        rule.gaps(np.hypot(*(on_toe - on_top).T)), is_long[rows] & (share[rows] == 1.0),
-    )  # fmt: skip
+    ends = np.column_stack([drawn.on_top[rows], drawn.on_toe[rows]])
+    asked = rule.gaps(np.hypot(*(drawn.on_toe[rows] - drawn.on_top[rows]).T))
+    on_edge = is_long[rows] & (share[rows] == 1.0)
+    laid = Laid(curves, drawn.station[rows], drawn.feet[rows], ends, asked, on_edge)
     return [Problem(found.where, found.reason) for found in excesses(laid, offset)]
 
 

@@ -228,7 +228,7 @@ def hatch(
         drawn, where = draw_by_matching(
             strip, ground, start, offset, end_strokes, stiffness, top_share
         )
-    curves = None if where is None else (where.middle.chain, where.middle.edges)
+    curves = None if where is None else where.curves
     finished = finish(drawn, ground, least, first, zones, strip, curves, offset)
     made = assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from midrib.hatching.bounds import Laid, turn_allowed
+from midrib.hatching.bounds import Laid
 from midrib.hatching.laying import Found, Ground, draw_at
 from midrib.hatching.rule import Rule
 from midrib.kernels.fans import Wanted
+from midrib.kernels.gauging import NORMAL, STEP, Course, allowed_turns
 from midrib.kernels.ladder import TAU, THETA, Strokes, draw_strokes, turn_rungs
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
@@ -22,10 +23,10 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     Each stretch in trouble, with some calm strokes beside it, is filled by the cheapest sequence of
     chords. What comes of it is taken where it is better.
     """
-    kept, ground = found.kept, found.ground
-    if kept.size < 2 or not (trouble := found.trouble(rule)).any():
+    kept, ground, laid = found.kept, found.ground, found.laid(rule)
+    if kept.size < 2 or not (trouble := found.trouble(laid)).any():
         return found
-    steps = found.laid(rule).steps
+    steps = laid.between(STEP)
     stretch = float(np.median(steps)) if steps.size > 1 else 1.0
     period = len(rule.pattern) if ground.middle.is_closed else 1
     allowed, upright = bounds_at_rungs(ground)
@@ -40,25 +41,24 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
         if len(new):
             chosen.append((first, last, new))
     other = with_chosen(found, chosen, stiffness)
+    now, spans = other.laid(rule), [span(found, part) for part in chosen]
     better = [
         part
-        for part in chosen
-        if other.badness(rule, span(found, part)) < found.badness(rule, span(found, part))
+        for part, where in zip(chosen, spans, strict=True)
+        if other.badness(now, where) < found.badness(laid, where)
     ]
     return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
 
 
 def bounds_at_rungs(ground: Ground) -> tuple[Floats, Floats]:
     """How far neighbours may turn at each rung, and the normal of the top, in radians."""
-    ladder, middle = ground.ladder, ground.middle
+    ladder, curves = ground.ladder, ground.curves
     strokes = draw_strokes(ladder, ladder.rungs[:, TAU].copy(), ground.spacing)
-    chord = strokes.chord
-    laid = Laid(
-        middle.chain, middle.edges, strokes.pivot[:, 0], chord[:, :2], chord[:, 2:4], chord[:, 4:6],
-        strokes.pivot[:, 5], np.ones(len(chord), dtype=np.bool_),
-    )  # fmt: skip
-    allowed = turn_allowed(laid.middle, laid.station, chord[:, 6], laid.asked)
-    return np.radians(allowed), np.radians(laid.normals())
+    station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
+    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked)
+    line, widths = Course(*curves.middle), np.ascontiguousarray(chord[:, 6])
+    allowed = allowed_turns(line, station.copy(), widths, asked.copy())
+    return allowed, laid.gauged[:, NORMAL].copy()
 
 
 def with_chosen(found: Found, chosen: list[Chosen], stiffness: float) -> Found:

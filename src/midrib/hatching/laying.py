@@ -4,10 +4,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.hatching.bounds import Laid, strain
+from midrib.hatching.bounds import Curves, Laid
 from midrib.hatching.middle import Middle
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
+from midrib.kernels.gauging import NORMAL, STEP
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_turned
 from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
 from midrib.types import Bools, Floats
@@ -26,6 +27,11 @@ class Ground(NamedTuple):
     spacing: Spacing
     from_right: bool
 
+    @property
+    def curves(self) -> Curves:
+        """Middle line and edges."""
+        return self.middle.curves
+
 
 class Found(NamedTuple):
     """Strokes of a slope in order along its middle line, which of them stay, and their ground."""
@@ -36,33 +42,29 @@ class Found(NamedTuple):
 
     def laid(self, rule: Rule) -> Laid:
         """Those that stay, as bounds are checked."""
-        middle, chord = self.ground.middle, self.strokes.chord[self.kept]
+        chord = self.strokes.chord[self.kept]
         station = self.strokes.pivot[self.kept, 0]
-        return Laid(
-            middle.chain, middle.edges, station, chord[:, :2], chord[:, 2:4], chord[:, 4:6],
-            rule.gaps(chord[:, 6]), np.ones(len(chord), dtype=np.bool_),
-        )  # fmt: skip
+        curves = self.ground.curves
+        return Laid(curves, station, chord[:, :2], chord[:, 2:6], rule.gaps(chord[:, 6]))
 
-    def trouble(self, rule: Rule) -> Bools:
+    def trouble(self, laid: Laid) -> Bools:
         """Which strokes are left out or beyond a bound, or not a gap from a neighbour.
 
         What was mended and keeps the bounds all the same is no trouble.
         """
         found: Bools = ~self.kept
         rows = np.flatnonzero(self.kept)
-        laid = self.laid(rule)
-        beyond, alone = strain(laid)
-        steps = laid.steps
-        is_off = beyond > 0.0
+        found[rows[laid.beyond[:, NORMAL] > 0.0]] = True
+        steps = laid.between(STEP)
         if steps.size:
+            is_off = laid.beyond[: steps.size, :NORMAL].any(axis=1)
             is_off |= abs(np.log(steps / np.median(steps))) > UNEVEN
-        found[rows[alone > 0.0]] = True
-        pairs = np.flatnonzero(is_off)
-        found[rows[pairs]] = True
-        found[rows[(pairs + 1) % rows.size]] = True
+            pairs = np.flatnonzero(is_off)
+            found[rows[pairs]] = True
+            found[rows[(pairs + 1) % rows.size]] = True
         return found
 
-    def badness(self, rule: Rule, between: tuple[float, float]) -> tuple[int, float, float]:
+    def badness(self, laid: Laid, between: tuple[float, float]) -> tuple[int, float, float]:
         """How bad strokes are from one station to another, on a closed slope past its start.
 
         How many are left out, how far the others are beyond bounds, and how uneven they are: the
@@ -76,15 +78,13 @@ class Found(NamedTuple):
             within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
             return within
 
-        laid = self.laid(rule)
         missing = np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0]))
-        beyond, alone = strain(laid)
-        steps = laid.steps
-        first = inside(laid.station)
-        pairs = (first & np.roll(first, -1))[: steps.size]
-        worst = float(beyond[pairs].sum() + alone[first].sum())
+        some = inside(laid.station)
+        steps = laid.between(STEP)
+        pairs = (some & np.roll(some, -1))[: steps.size]
+        beyond = laid.beyond[: steps.size, :NORMAL][pairs].sum() + laid.beyond[some, NORMAL].sum()
         ratio = steps[pairs].max() / steps[pairs].min() if pairs.any() else 1.0
-        return missing, round(worst, 4), round(float(np.log(ratio)), 4)
+        return missing, round(float(beyond), 4), round(float(np.log(ratio)), 4)
 
 
 def draw_at(

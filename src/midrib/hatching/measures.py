@@ -7,9 +7,10 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from midrib.hatching.bounds import Excess, Laid, excesses
+from midrib.hatching.bounds import Curves, Excess, Laid, excesses
 from midrib.hatching.chains import chain_of
 from midrib.kernels.crossings import meet
+from midrib.kernels.gauging import ALLOWED, STEP, TOE, TOP, TURN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -116,9 +117,9 @@ def measure_strokes(
         shapely.distance(shapely.get_point(strokes, -1), strip.auxiliary),
     )
     laid = laid_of(strip, rule, middle, is_long & (off <= reach), on_top, on_toe)
-    width, steps = laid.width, laid.steps
+    width, steps = np.hypot(*(on_toe - on_top).T), laid.between(STEP)
     mean = float(steps.mean()) if len(steps) else 1.0
-    tilts = laid.tilts()
+    tilts = laid.tilts
     return Measures(
         strokes=len(strokes),
         crossings=crossings(strokes),
@@ -126,12 +127,12 @@ def measure_strokes(
         short_of_edge=int(np.count_nonzero(is_long & (off > reach))),
         spacing=steps / mean,
         stretch=mean,
-        top_gap=float(laid.foot_steps(0).max(initial=0.0)),
-        toe_gap=float(laid.foot_steps(1).max(initial=0.0)),
-        end_gap=0.0 if laid.middle.is_closed else float(laid.end_gaps().max()),
-        least_foot=float(laid.nearest_feet().min(initial=np.inf)),
-        turns=laid.turns(),
-        allowed=laid.turns_allowed(),
+        top_gap=float(laid.between(TOP).max(initial=0.0)),
+        toe_gap=float(laid.between(TOE).max(initial=0.0)),
+        end_gap=0.0 if strip.is_closed else float(laid.end_gaps.max()),
+        least_foot=laid.feet_apart,
+        turns=np.degrees(laid.between(TURN)),
+        allowed=np.degrees(laid.between(ALLOWED)),
         tilts=tilts[~np.isnan(tilts)],
         beyond=excesses(laid),
     )
@@ -152,16 +153,9 @@ def laid_of(
         shapely.line_locate_point(edge, shapely.points(ends))
         for edge, ends in zip(edges, (on_top, on_toe), strict=True)
     ]
-    return Laid(
-        middle=chain_of(middle),
-        edges=(chain_of(edges[0]), chain_of(edges[1])),
-        station=stations_on(middle, whole),
-        feet=np.column_stack(feet),
-        on_top=on_top,
-        on_toe=on_toe,
-        asked=rule.gaps(np.hypot(*(on_toe - on_top).T)),
-        on_edge=on_edge,
-    )
+    curves = Curves(chain_of(middle), chain_of(edges[0]), chain_of(edges[1]))
+    ends, asked = np.column_stack([on_top, on_toe]), rule.gaps(np.hypot(*(on_toe - on_top).T))
+    return Laid(curves, stations_on(middle, whole), np.column_stack(feet), ends, asked, on_edge)
 
 
 def crossings(strokes: "NDArray[np.object_]") -> int:
