@@ -29,11 +29,13 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     steps = laid.between(STEP)
     stretch = float(np.median(steps)) if steps.size > 1 else 1.0
     period = len(rule.pattern) if ground.middle.is_closed else 1
-    allowed, upright = bounds_at_rungs(ground)
+    ends = stretches(trouble, kept, ground.middle.is_closed)
+    spans = [span(found, first, last) for first, last in ends]
+    allowed, upright = bounds_at_rungs(ground, spans)
     chosen: list[Chosen] = []
-    for first, last in stretches(trouble, kept, ground.middle.is_closed):
-        between = (last - first - 1) % kept.size if ground.middle.is_closed else 0
-        wanted = Wanted(offset, stretch, stiffness, period, (between + 1) % period)
+    for first, last in ends:
+        inner = (last - first - 1) % kept.size if ground.middle.is_closed else 0
+        wanted = Wanted(offset, stretch, stiffness, period, (inner + 1) % period)
         new = choose_places(
             ground.ladder, found.strokes, ground.spacing, first, last, wanted,
             ground.middle.periods, allowed, upright,
@@ -41,24 +43,34 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
         if len(new):
             chosen.append((first, last, new))
     other = with_chosen(found, chosen, stiffness)
-    now, spans = other.laid(rule), [span(found, part) for part in chosen]
-    better = [
-        part
-        for part, where in zip(chosen, spans, strict=True)
-        if other.badness(now, where) < found.badness(laid, where)
-    ]
+    now, better = other.laid(rule), []
+    for part in chosen:
+        between = span(found, *part[:2])
+        if other.badness(now, between) < found.badness(laid, between):
+            better.append(part)
     return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
 
 
-def bounds_at_rungs(ground: Ground) -> tuple[Floats, Floats]:
-    """How far neighbours may turn at each rung, and the normal of the top, in radians."""
+def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
+    """How far neighbours may turn at each rung, and the normal of the top, in radians.
+
+    Only from some stations to others; elsewhere it is infinite and NaN.
+    """
     ladder, curves = ground.ladder, ground.curves
-    strokes = draw_strokes(ladder, ladder.rungs[:, TAU].copy(), ground.spacing)
+    tau, period = ladder.rungs[:, TAU], ground.middle.periods[2]
+    near = np.zeros(tau.size, dtype=np.bool_)
+    for low, high in spans:
+        ahead = (tau - low) % period if period > 0.0 else tau - low
+        near |= (ahead >= 0.0) & (ahead <= high - low)
+    near |= np.roll(near, 1) | np.roll(near, -1)
+    strokes = draw_strokes(ladder, tau[near], ground.spacing)
     station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
     laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked)
     line, widths = Course(*curves.middle), np.ascontiguousarray(chord[:, 6])
-    allowed = allowed_turns(line, station.copy(), widths, asked.copy())
-    return allowed, laid.gauged[:, NORMAL].copy()
+    allowed, upright = np.full(tau.size, np.inf), np.full(tau.size, np.nan)
+    allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
+    upright[near] = laid.gauged[:, NORMAL]
+    return allowed, upright
 
 
 def with_chosen(found: Found, chosen: list[Chosen], stiffness: float) -> Found:
@@ -77,10 +89,9 @@ def with_chosen(found: Found, chosen: list[Chosen], stiffness: float) -> Found:
     return drawn._replace(ground=turned)
 
 
-def span(found: Found, part: Chosen) -> tuple[float, float]:
+def span(found: Found, first: int, last: int) -> tuple[float, float]:
     """Stations from which to which a stretch reaches."""
     station, middle = found.strokes.pivot[:, 0], found.ground.middle
-    first, last, _ = part
     low = float(station[first]) if first >= 0 else 0.0
     high = float(station[last]) if last >= 0 else middle.length
     return low, high + (middle.periods[2] if middle.is_closed and high <= low else 0.0)

@@ -1,7 +1,8 @@
 r"""Fans: of chords at places along a slope, the cheapest sequence that advances on both edges.
 
 Dynamic programming: the cheapest way to each chord comes from one of the chords half a gap to two
-gaps before it. Most of them are passed over by what their ways have cost already.
+gaps before it. Most of them are passed over by what their ways have cost already: a cheap sequence, looked for among the
+chords next to the middle of the fans only, says how much any other may cost.
 
     \|/ \|/ \|/ \|/ \|/
      o   o   o   o   o       places, each with a fan of chords
@@ -17,7 +18,7 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["Fans", "Wanted", "cheapest_way", "cost_of_end", "cost_of_step"]
+__all__ = ["Fans", "Wanted", "cheapest_way", "cost_of_end", "cost_of_step", "middle_of_fans"]
 
 GAP_COST, UNEVEN_COST, GAP_WALL = 5.0, 200.0, 4000.0  # of l: squared, beyond UNEVEN, beyond FAR_OFF
 UNEVEN, FAR_OFF, FARTHEST = 0.08, 0.2, 0.7  # of l
@@ -103,9 +104,11 @@ def cost_of_step(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted, mos
 
 @njit(entry=True)
 def cheapest_way(
-    fans: Fans, fixed: tuple[int, int], wanted: Wanted, total: float, periods: Floats
-) -> Ints:
-    """Return the cheapest sequence of chords, as i m + c for chord c at place i; empty if none is.
+    fans: Fans, fixed: tuple[int, int], wanted: Wanted, total: float, periods: Floats, most: float
+) -> tuple[Ints, float]:
+    """Return the cheapest sequence of chords, as i m + c for chord c at place i, and its cost.
+
+    It is empty if there is none, or none cheaper than ``most``.
 
     Parameters
     ----------
@@ -114,6 +117,7 @@ def cheapest_way(
     wanted : Wanted
     total : length of the middle line
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
+    most : float
     """
     (n, m), period = fans.turn.shape, wanted.period
     # By the chord, and by how many strokes, but for whole periods, there are before it.
@@ -149,26 +153,29 @@ def cheapest_way(
                 j = middle - (k - start) if k <= middle else k
                 worst = 0.0
                 for r in range(period):
-                    worst = max(worst, cost[i, c, r])
-                if own + least[j] >= TIED * worst:
+                    worst = max(worst, TIED * cost[i, c, r])
+                if own + least[j] >= min(worst, most):
                     continue
                 if fans.tau[i] - fans.tau[j] < NEAREST_STEP * wanted.stretch * (gap + narrow[j]) / 2:
                     break
                 for d in range(m):
-                    most = 0.0
-                    for r in range(period):
-                        most = max(most, TIED * cost[i, c, (r + 1) % period] - cost[j, d, r])
-                    if not own < most:
+                    if np.isinf(fans.cost[j, d]):
                         continue
-                    step = own + cost_of_step(fans, j, d, i, c, wanted, most - own, periods)
+                    room = 0.0
+                    for r in range(period):
+                        cheaper_than = min(TIED * cost[i, c, (r + 1) % period], most)
+                        room = max(room, cheaper_than - cost[j, d, r])
+                    if not own < room:
+                        continue
+                    step = own + cost_of_step(fans, j, d, i, c, wanted, room - own, periods)
                     for r in range(period):
                         way, after = cost[j, d, r] + step, (r + 1) % period
-                        if way < TIED * cost[i, c, after]:
+                        if way < min(TIED * cost[i, c, after], most):
                             cost[i, c, after], came[i, c, after] = way, (j * m + d) * period + r
             for r in range(period):
                 least[i] = min(least[i], cost[i, c, r])
     # 2. The cheapest of all, from its end back.
-    best, at = np.inf, -1
+    best, at = most, -1
     for i in range(n - 1 if fixed[1] != 0 else 0, n):
         for c in range(m):
             way = cost[i, c, wanted.rest]
@@ -187,4 +194,17 @@ def cheapest_way(
         count -= 1
         found[count] = at // period
         at = ways[at]
-    return found
+    return found, best
+
+
+@njit()
+def middle_of_fans(fans: Fans, half: int) -> Fans:
+    """Fans of which only so many chords to either side of the middle one are left."""
+    n, m = fans.turn.shape
+    cost = np.full((n, m), np.inf)
+    for i in range(n):
+        for c in range(max(m // 2 - half, 0), min(m // 2 + half + 1, m)):
+            cost[i, c] = fans.cost[i, c]
+    return Fans(
+        fans.tau, fans.calm, fans.allowed, fans.turn, fans.feet, fans.width, fans.gap, cost
+    )

@@ -285,17 +285,22 @@ def build_ladder(
         n += 1
     # 3. Gaps, by the chords in these directions.
     ladder = Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
-    measure_gaps(ladder, rule)
+    measure_gaps(ladder, rule, np.full(n, np.nan))
     return ladder
 
 
 @njit(borrows=True)
-def measure_gaps(ladder: Ladder, rule: Spacing) -> None:
-    """Write the lengths of the chords of all rungs, and the gaps they ask for."""
+def measure_gaps(ladder: Ladder, rule: Spacing, known: Floats) -> None:
+    """Write the lengths of the chords of all rungs, and the gaps they ask for.
+
+    What has the ``known`` direction has its length already.
+    """
     rungs, line = ladder.rungs, ladder.line
     n, m = rungs.shape[0], line.shape[0]
     for i in range(n):
         x, y, theta = rungs[i, X], rungs[i, Y], rungs[i, THETA]
+        if theta == known[i]:
+            continue
         chord = shoot(ladder.ground, ladder.at[i, 0], x, y, theta)
         rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
     if line[0, 0] != line[m - 1, 0] or line[0, 1] != line[m - 1, 1]:  # open: see build_ladder
@@ -307,9 +312,10 @@ def measure_gaps(ladder: Ladder, rule: Spacing) -> None:
 def turn_rungs(ladder: Ladder, theta: Floats, rule: Spacing) -> Ladder:
     """Return the ladder with other directions of its rungs, and the gaps that they ask for."""
     rungs = with_rows(ladder.rungs, ladder.rungs.shape[0])
+    known = rungs[:, THETA].copy()
     rungs[:, THETA] = theta
     turned = Ladder(ladder.ground, ladder.line, ladder.arc, rungs, ladder.at)
-    measure_gaps(turned, rule)
+    measure_gaps(turned, rule, known)
     return turned
 
 

@@ -15,7 +15,7 @@ place     station along the middle line, counted in rungs of the ladder, on a cl
 import numpy as np
 
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
-from midrib.kernels.fans import Fans, Wanted, cheapest_way
+from midrib.kernels.fans import Fans, Wanted, cheapest_way, middle_of_fans
 from midrib.kernels.jit import njit
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, X, Y, follow, gap_at
 from midrib.types import Floats
@@ -24,6 +24,7 @@ __all__ = ["choose_places"]
 
 COARSE = 2  # rungs from one place to the next
 FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
+LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as much, relative
 NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
 FINER, LEVELS = (-1.0, 0.0, 1.0), 4  # places then, in steps that are halved as well
 TILT_WALL, TILT_ROOM = 400.0, 0.95  # for each squared radian beyond so much of the most tilt
@@ -157,7 +158,12 @@ def choose_places(
         fans = open_fans(
             ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
         )
-        way = cheapest_way(fans, (before, after), wanted, rungs[lap, TAU], periods)
+        most, total = np.inf, rungs[lap, TAU]
+        if level == 0:
+            some = middle_of_fans(fans, LIKELY)
+            way, most = cheapest_way(some, (before, after), wanted, total, periods, most)
+            most *= 1.0 + EQUAL
+        way, _ = cheapest_way(fans, (before, after), wanted, total, periods, most)
         k = way.shape[0] - before - after
         if k < 1:
             return np.empty((0, 2))
