@@ -21,7 +21,7 @@ from midrib.kernels.gauging import (
 )
 from midrib.types import Bools, Floats
 
-__all__ = ["Curves", "Excess", "Laid", "excesses"]
+__all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends"]
 
 SPACING = (0.8, 1.25)  # gaps between neighbours on the middle line
 EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, and straight
@@ -138,16 +138,10 @@ class Excess(NamedTuple):
     reason: str
 
 
-def excesses(laid: Laid, offset: float = 1.0) -> list[Excess]:
-    """Places where strokes exceed a bound, in order along the slope; O(n + m).
-
-    ``offset`` is how many gaps from the ends of the slope the first and the last stroke should be.
-    """
-    n, middle = laid.station.size, laid.curves.middle
-    if not n:
-        return []
+def excesses(laid: Laid) -> list[Excess]:
+    """Places where neighbours, or strokes by themselves, exceed a bound, in order; O(n + m)."""
+    n, pivots = laid.station.size, laid.curves.middle.at(laid.station)
     found = []
-    pivots = middle.at(laid.station)
     for row in np.flatnonzero(laid.beyond.any(axis=1)).tolist():
         columns = np.flatnonzero(laid.beyond[row]).tolist()
         values = laid.gauged[row].copy()
@@ -158,13 +152,28 @@ def excesses(laid: Laid, offset: float = 1.0) -> list[Excess]:
         if columns != [NORMAL]:
             where = (where + pivots[(row + 1) % n]) / 2.0
         found.append(Excess(row, Point(where), reason))
-    if middle.is_closed:
-        return found
-    most = END_GAP * max(offset, 1.0) * (1.0 + ROUNDING)
+    return found
+
+
+def far_ends(
+    laid: Laid, offset: float = 1.0, narrow: Floats | None = None, least: float = 0.0
+) -> list[Excess]:
+    """Ends of the middle line that are too far from the next stroke.
+
+    ``offset`` is how many gaps it should be. At ``narrow`` stations there would be strokes shorter
+    than the ``least`` one.
+    """
+    middle = laid.curves.middle
+    if middle.is_closed or not laid.station.size:
+        return []
+    most, found = END_GAP * max(offset, 1.0), []
     nearest = (int(np.argmin(laid.station)), int(np.argmax(laid.station)))
     for end, away, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
-        if away > most:
-            where = (middle.points[end] + pivots[row]) / 2.0
-            reason = f"the slope's end is {away:.1f} gaps from a stroke, {most:.3g} at most wanted"
-            found.append(Excess(row, Point(where), reason))
+        if away <= most * (1.0 + ROUNDING):
+            continue
+        at = laid.station[row]
+        reason = f"the slope's end is {away:.1f} gaps from a stroke, {most:.3g} at most wanted"
+        if narrow is not None and (narrow > at if end else narrow < at).any():
+            reason += f": it is narrower than the shortest stroke, {least:.3g}, there"
+        found.append(Excess(row, Point((middle.points[end] + middle.at(at)) / 2.0), reason))
     return found

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from midrib.hatching.bounds import Curves, Excess, Laid, excesses
+from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
 from midrib.hatching.chains import chain_of
 from midrib.kernels.crossings import meet
 from midrib.kernels.gauging import ALLOWED, STEP, TOE, TOP, TURN
@@ -134,7 +134,7 @@ def measure_strokes(
         turns=np.degrees(laid.between(TURN)),
         allowed=np.degrees(laid.between(ALLOWED)),
         tilts=tilts[~np.isnan(tilts)],
-        beyond=excesses(laid),
+        beyond=excesses(laid) + far_ends(laid),
     )
 
 

@@ -6,7 +6,8 @@ r"""Gauging: how far apart strokes are, how much they turn, and from what they l
               |     |            NEAR_TOP, NEAR_TOE  straight, in gaps; to the next that is drawn
     toe  -----b-----d--------              as far as the toe
                                  TURN, ALLOWED  angle between them, and what it may be
-                                 NORMAL    direction of the top's normal; NaN near corners
+                                 NORMAL    direction of the top's normal; NaN near
+                                           corners and ends
 """
 
 from typing import NamedTuple
@@ -64,7 +65,9 @@ def place_on(course: Course, station: float) -> tuple[float, float]:
 
 @njit(borrows=True)
 def direction_on(course: Course, station: float, width: float) -> float:
-    """Direction of a course over a width around a station."""
+    """Direction of a course over a width around a station; NaN beyond its ends."""
+    if not course.is_closed and not 0.0 <= station <= course.arc[course.arc.size - 1]:
+        return np.nan
     ax, ay = place_on(course, station - width / 2.0)
     bx, by = place_on(course, station + width / 2.0)
     return np.arctan2(by - ay, bx - ax)
@@ -72,11 +75,11 @@ def direction_on(course: Course, station: float, width: float) -> float:
 
 @njit(borrows=True)
 def is_straight(course: Course, station: float, width: float) -> bool:
-    """Whether a course has no corner within two widths of a station."""
+    """Whether a course has no corner within two widths of a station, nor an end in 1.5."""
     here = direction_on(course, station, width)
     for place in PLACES:
         off = direction_on(course, station + place * width, width) - here
-        if abs(folded(off, 2.0 * np.pi)) > STRAIGHT:
+        if not abs(folded(off, 2.0 * np.pi)) <= STRAIGHT:
             return False
     return True
 
