@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from midrib.strip import Strip
     from midrib.types import Bools, Floats
 
-__all__ = ["Measures", "crossings", "measure", "measure_strokes"]
+__all__ = ["Measures", "crossings", "measure", "measure_strokes", "untold"]
 
 ON_EDGE, ROUNDING = 1e-9, 2.0**-48  # of the extent, and of the coordinates
 
@@ -136,6 +136,22 @@ def measure_strokes(
         tilts=tilts[~np.isnan(tilts)],
         beyond=excesses(laid) + far_ends(laid),
     )
+
+
+def untold(hatching: "Hatching", found: Measures) -> list[Excess]:
+    """Places where strokes are beyond a bound and no problem of the hatching says so there.
+
+    There is between the two strokes, or at the one, but for a tenth of a gap.
+    """
+    n, told = len(hatching.strokes), shapely.MultiPoint([p.where for p in hatching.problems])
+    places = []
+    for one in found.beyond:
+        rows = [one.row, (one.row + 1) % n]
+        corners = [*hatching.on_top[rows], *hatching.on_toe[rows], one.where.coords[0]]
+        near = 0.1 * float(hatching.rule.gaps(hatching.width[rows]).min())
+        if not shapely.dwithin(shapely.MultiPoint(corners).convex_hull, told, near):
+            places.append(one)
+    return places
 
 
 def laid_of(
