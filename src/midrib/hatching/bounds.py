@@ -21,7 +21,7 @@ from midrib.kernels.gauging import (
 )
 from midrib.types import Bools, Floats
 
-__all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends"]
+__all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends", "most_at_ends"]
 
 SPACING = (0.8, 1.25)  # gaps between neighbours on the middle line
 EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, and straight
@@ -155,6 +155,11 @@ def excesses(laid: Laid) -> list[Excess]:
     return found
 
 
+def most_at_ends(offset: float) -> float:
+    """Gaps that the first and last stroke may be from the ends, where they should be so many."""
+    return END_GAP * max(offset, 1.0)
+
+
 def far_ends(
     laid: Laid, offset: float = 1.0, narrow: Floats | None = None, least: float = 0.0
 ) -> list[Excess]:
@@ -166,7 +171,7 @@ def far_ends(
     middle = laid.curves.middle
     if middle.is_closed or not laid.station.size:
         return []
-    most, found = END_GAP * max(offset, 1.0), []
+    most, found = most_at_ends(offset), []
     nearest = (int(np.argmin(laid.station)), int(np.argmax(laid.station)))
     for end, away, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
         if away <= most * (1.0 + ROUNDING):

@@ -46,7 +46,7 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     now, better = other.laid(rule), []
     for part in chosen:
         between = span(found, *part[:2])
-        if other.badness(now, between) < found.badness(laid, between):
+        if other.badness(now, between, offset) < found.badness(laid, between, offset):
             better.append(part)
     return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.hatching.bounds import Curves, Laid
+from midrib.hatching.bounds import Curves, Laid, most_at_ends
 from midrib.hatching.middle import Middle
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
@@ -64,7 +64,9 @@ class Found(NamedTuple):
             found[rows[(pairs + 1) % rows.size]] = True
         return found
 
-    def badness(self, laid: Laid, between: tuple[float, float]) -> tuple[int, float, float]:
+    def badness(
+        self, laid: Laid, between: tuple[float, float], offset: float
+    ) -> tuple[int, float, float]:
         """How bad strokes are from one station to another, on a closed slope past its start.
 
         How many are left out, how far the others are beyond bounds, and how uneven they are: the
@@ -83,6 +85,9 @@ class Found(NamedTuple):
         steps = laid.between(STEP)
         pairs = (some & np.roll(some, -1))[: steps.size]
         beyond = laid.beyond[: steps.size, :NORMAL][pairs].sum() + laid.beyond[some, NORMAL].sum()
+        if period == 0.0:
+            reached = np.array([low <= 0.0, high >= self.ground.middle.length])
+            beyond += np.log(np.maximum(laid.end_gaps / most_at_ends(offset), 1.0))[reached].sum()
         ratio = steps[pairs].max() / steps[pairs].min() if pairs.any() else 1.0
         return missing, round(float(beyond), 4), round(float(np.log(ratio)), 4)
 

@@ -27,6 +27,7 @@ TURN_WALL, TURN_NEARLY = 20_000.0, 0.985
 FOOT_COST, FOOT_NEAR, FOOT_FAR = 60.0, 0.45, 1.5  # for each squared gap beyond these
 FOOT_WALL, FOOT_NEAREST, FOOT_FARTHEST = 2000.0, 0.28, 1.7
 AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
+END_ROOM = 0.35  # of l there; more costs much
 TIED = 1.0 - 2.0**-30  # a way that is cheaper by less is as cheap, whatever rounding says
 NEAREST_STEP, FARTHEST_STEP = np.exp(-FARTHEST), np.exp(FARTHEST)
 
@@ -57,8 +58,11 @@ class Wanted(NamedTuple):
 @njit(borrows=True)
 def cost_of_end(away: float, gap: float) -> float:
     """Cost of a first or last stroke that is so far from the end, where it should be a gap."""
-    off = abs(np.log(away / gap)) if away > 0.0 else np.inf
-    return AT_END * off * off if off < FARTHEST_END else np.inf
+    if away <= 0.0 or abs(np.log(away / gap)) >= FARTHEST_END:
+        return np.inf
+    off = np.log(away / gap)
+    beyond = max(off - END_ROOM, 0.0)
+    return AT_END * off * off + GAP_WALL * beyond * beyond
 
 
 @njit(borrows=True)
