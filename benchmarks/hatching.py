@@ -148,7 +148,17 @@ def hatched(slopes: Iterable[Slope], **options: Any) -> list[Row]:
         hatching = hatch(slope.strip, **options)
         found = measure(hatching)
         count = len(hatching.problems)
-        rows.append(Row(slope.name, slope.strip, hatching, hatching.strokes, found, count, len(untold(hatching, found))))
+        rows.append(
+            Row(
+                slope.name,
+                slope.strip,
+                hatching,
+                hatching.strokes,
+                found,
+                count,
+                len(untold(hatching, found)),
+            )
+        )
     return rows
 
 

@@ -70,9 +70,7 @@ def chords_of(hatching: Hatching) -> Chords:
         feet[leads, k] = strokes.chord[leads, :2]
         gap[:, k] = strokes.pivot[:, 5]
     line = Course(*ground.curves.middle)
-    allowed = np.degrees(
-        allowed_turns(line, station, width.copy(), hatching.rule.gaps(width))
-    )
+    allowed = np.degrees(allowed_turns(line, station, width.copy(), hatching.rule.gaps(width)))
     return Chords(station, theta, feet, gap, allowed)
 
 

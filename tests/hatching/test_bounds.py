@@ -18,7 +18,7 @@ from tests.hatching.slopes import annulus, bands, lens, rectangle, rings, trapez
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
 
-from hatch_slopes import KINDS, one_random, real_polish  # noqa: E402
+from hatch_slopes import KINDS, one_random, real_polish
 
 FOLDER = Path(__file__).parents[2].parent / "shared" / "data"
 SHIFT = (5e5, 5e6)

@@ -1,5 +1,7 @@
 """The cheapest sequence of chords beside one that is looked for in every way."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -44,7 +46,7 @@ def cost_of(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted) -> float
             return np.inf
         cost += 60.0 * max(0.45 - foot, foot - 1.5, 0.0) ** 2
         cost += 2000.0 * max(0.28 - foot, foot - 1.7, 0.0) ** 2
-    return cost
+    return float(cost)
 
 
 def at_end(away: float, gap: float) -> float:
@@ -83,7 +85,7 @@ def cost_of_way(fans: Fans, way: Ints, fixed: tuple[int, int], wanted: Wanted) -
     m = fans.turn.shape[1]
     chords = [(int(at) // m, int(at) % m) for at in way]
     total = sum(fans.cost[i, c] for i, c in chords)
-    for (j, d), (i, c) in zip(chords, chords[1:], strict=False):
+    for (j, d), (i, c) in itertools.pairwise(chords):
         total += cost_of(fans, j, d, i, c, wanted)
     for end, (i, c) in enumerate((chords[0], chords[-1])):
         if not fixed[end]:
@@ -128,4 +130,3 @@ def test_what_others_may_cost_changes_no_choice(seed: int, share: float) -> None
     way, cost = cheapest_way(fans, (0, 0), wanted, TOTAL, OPEN, np.inf)
     again, _ = cheapest_way(fans, (0, 0), wanted, TOTAL, OPEN, share * cost)
     assert again.tolist() == (way.tolist() if share > 1.0 else [])
-

@@ -79,9 +79,11 @@ class Laid:
     @cached_property
     def gauged(self) -> Floats:
         """All numbers about them; see ``midrib.kernels.gauging``."""
-        courses = (Course(*curve) for curve in self.curves)
-        arrays = (np.ascontiguousarray(a) for a in (self.station, self.feet, self.ends, self.asked))
-        table: Floats = gauge(*courses, *arrays, self.on_edge)
+        line, top, toe = (Course(*curve) for curve in self.curves)
+        station, feet, ends, asked = (
+            np.ascontiguousarray(a) for a in (self.station, self.feet, self.ends, self.asked)
+        )
+        table: Floats = gauge(line, top, toe, station, feet, ends, asked, self.on_edge)
         return table
 
     def between(self, column: int) -> Floats:
@@ -100,7 +102,9 @@ class Laid:
     @property
     def feet_apart(self) -> float:
         """Least straight distance between neighbouring ends on an edge, in gaps."""
-        return float(np.fmin.reduce(self.gauged[:, [NEAR_TOP, NEAR_TOE]], axis=None, initial=np.inf))
+        return float(
+            np.fmin.reduce(self.gauged[:, [NEAR_TOP, NEAR_TOE]], axis=None, initial=np.inf)
+        )
 
     @property
     def end_gaps(self) -> Floats:

@@ -160,8 +160,12 @@ def one_by_one(points: Floats, rows: Ints, gap: Floats, is_closed: bool) -> Ints
     for row in rows[1:].tolist():
         if off(points, stay[-1], row) >= LEAST_FOOT * (gap[stay[-1]] + gap[row]) / 2.0:
             stay.append(row)
-    while is_closed and len(stay) > 1 and not (
-        off(points, stay[-1], stay[0]) >= LEAST_FOOT * (gap[stay[-1]] + gap[stay[0]]) / 2.0
+    while (
+        is_closed
+        and len(stay) > 1
+        and not (
+            off(points, stay[-1], stay[0]) >= LEAST_FOOT * (gap[stay[-1]] + gap[stay[0]]) / 2.0
+        )
     ):
         stay.pop()
     return np.array(stay)
@@ -194,7 +198,11 @@ def pattern_broken(drawn: Drawn, kept: Bools, pattern: str) -> list[Problem]:
     if count % len(pattern) == 0:
         return []
     where = Point(drawn.middle[np.flatnonzero(kept)[0]])
-    return [Problem(where, f"{count} strokes are no whole patterns {pattern}; it begins anew here", "beyond")]
+    return [
+        Problem(
+            where, f"{count} strokes are no whole patterns {pattern}; it begins anew here", "beyond"
+        )
+    ]
 
 
 def are_apart(points: Floats, chosen: Bools, gap: Floats, is_closed: bool) -> bool:

@@ -126,9 +126,7 @@ def stretches(trouble: Bools, kept: Bools, is_closed: bool) -> list[tuple[int, i
     return found
 
 
-def spliced(
-    strokes: Strokes, chosen: list[Chosen], period: float
-) -> tuple[Floats, Floats]:
+def spliced(strokes: Strokes, chosen: list[Chosen], period: float) -> tuple[Floats, Floats]:
     """Stations and turns of all strokes in order, those of some stretches replaced."""
     station = strokes.pivot[:, 0]
     stays = np.ones(station.size, dtype=np.bool_)

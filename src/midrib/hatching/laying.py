@@ -80,7 +80,7 @@ class Found(NamedTuple):
             within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
             return within
 
-        missing = np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0]))
+        missing = int(np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0])))
         some = inside(laid.station)
         steps = laid.between(STEP)
         pairs = (some & np.roll(some, -1))[: steps.size]

@@ -160,7 +160,10 @@ def cheapest_way(
                     worst = max(worst, TIED * cost[i, c, r])
                 if own + least[j] >= min(worst, most):
                     continue
-                if fans.tau[i] - fans.tau[j] < NEAREST_STEP * wanted.stretch * (gap + narrow[j]) / 2:
+                if (
+                    fans.tau[i] - fans.tau[j]
+                    < NEAREST_STEP * wanted.stretch * (gap + narrow[j]) / 2
+                ):
                     break
                 for d in range(m):
                     if np.isinf(fans.cost[j, d]):
@@ -209,6 +212,4 @@ def middle_of_fans(fans: Fans, half: int) -> Fans:
     for i in range(n):
         for c in range(max(m // 2 - half, 0), min(m // 2 + half + 1, m)):
             cost[i, c] = fans.cost[i, c]
-    return Fans(
-        fans.tau, fans.calm, fans.allowed, fans.turn, fans.feet, fans.width, fans.gap, cost
-    )
+    return Fans(fans.tau, fans.calm, fans.allowed, fans.turn, fans.feet, fans.width, fans.gap, cost)

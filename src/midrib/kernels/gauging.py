@@ -1,13 +1,13 @@
 r"""Gauging: how far apart strokes are, how much they turn, and from what they lean.
 
-    top  ----a-----c--------     gap       the mean of what the rule asks for at both strokes
-              |     |            STEP      between neighbours on the middle line, in gaps
-    line  ----o-----o--------    TOP, TOE  between their ends along the edges, in gaps
-              |     |            NEAR_TOP, NEAR_TOE  straight, in gaps; to the next that is drawn
-    toe  -----b-----d--------              as far as the toe
-                                 TURN, ALLOWED  angle between them, and what it may be
-                                 NORMAL    direction of the top's normal; NaN near
-                                           corners and ends
+top  ----a-----c--------     gap       the mean of what the rule asks for at both strokes
+          |     |            STEP      between neighbours on the middle line, in gaps
+line  ----o-----o--------    TOP, TOE  between their ends along the edges, in gaps
+          |     |            NEAR_TOP, NEAR_TOE  straight, in gaps; to the next that is drawn
+toe  -----b-----d--------              as far as the toe
+                             TURN, ALLOWED  angle between them, and what it may be
+                             NORMAL    direction of the top's normal; NaN near
+                                       corners and ends
 """
 
 from typing import NamedTuple
