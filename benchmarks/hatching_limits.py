@@ -24,8 +24,9 @@ from shapely import LineString
 from hatch_slopes import Slope, one_random, real_polish, shapes
 from midrib import Strip, hatch
 from midrib.hatching import Hatching
-from midrib.hatching.measures import measure, turn_allowed
+from midrib.hatching.measures import measure
 from midrib.kernels.chords import ON_TOE, ON_TOP
+from midrib.kernels.gauging import Course, allowed_turns
 from midrib.kernels.ladder import draw_strokes, turn_rungs
 from tables import ROOT, markdown
 
@@ -57,7 +58,7 @@ def chords_of(hatching: Hatching) -> Chords:
     """Every chord to try."""
     ground = hatching.ground
     assert ground is not None
-    ladder, middle = ground.ladder, LineString(ground.middle.line)
+    ladder = ground.ladder
     station = ladder.rungs[:, 0].copy()
     theta = ladder.rungs[:, 3:4] + DIRECTIONS
     feet, gap = np.full((*theta.shape, 2), np.nan), np.empty(theta.shape)
@@ -68,10 +69,9 @@ def chords_of(hatching: Hatching) -> Chords:
         leads = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
         feet[leads, k] = strokes.chord[leads, :2]
         gap[:, k] = strokes.pivot[:, 5]
-    rule = hatching.rule.gaps(width)
-    allowed = turn_allowed(middle, np.append(station, station[-1]), np.append(width, width[-1]),
-                           np.append(rule, rule[-1]), False)[:-1]  # fmt: skip
-    return Chords(station, theta, feet, gap, np.resize(allowed, len(station)))
+    line = Course(*ground.curves.middle)
+    allowed = np.degrees(allowed_turns(line, station, width.copy(), hatching.rule.gaps(width)))
+    return Chords(station, theta, feet, gap, allowed)
 
 
 @nb.njit()

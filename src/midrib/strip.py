@@ -431,12 +431,15 @@ def diagonal(area: Polygon) -> float:
 def far_from(line: LineString, other: LineString, near: float) -> "Floats | None":
     """Return the vertex or middle of a segment of a line that is farthest from another line.
 
-    None if even that is not farther than ``near``.
+    None if even that is not farther than ``near``. Distances are not told by an index, but whether
+    they are within ``near`` is: they are for what is not.
     """
     vertices = shapely.get_coordinates(line)
     points = np.concatenate([vertices, (vertices[1:] + vertices[:-1]) / 2.0])
     other = shapely.force_2d(other)  # a copy: callers may share theirs among threads
     shapely.prepare(other)
-    off = shapely.distance(shapely.points(points), other)
-    worst = int(np.argmax(off))
-    return points[worst] if off[worst] > near else None
+    apart = points[~shapely.dwithin(other, shapely.points(points), near)]
+    if not len(apart):
+        return None
+    worst: Floats = apart[np.argmax(shapely.distance(shapely.points(apart), other))]
+    return worst

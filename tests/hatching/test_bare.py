@@ -31,7 +31,7 @@ def test_stretches_are_as_long_as_strokes_are_missing() -> None:
     x = found.on_top[:, 0]
     kept = (x < 30.0) | (x > 70.0)
     assert found.ground is not None
-    edges = found.ground.middle.edges
+    edges = found.ground.curves[1:]
     ends = found.on_top[kept], found.on_toe[kept]
     feet = np.column_stack(
         [

@@ -159,7 +159,7 @@ def test_slopes_that_cannot_be_matched_are_found(monkeypatch: pytest.MonkeyPatch
     def hatch(strip: object, known: Standard, scale: float, *, metres_per_unit: float) -> object:
         assert strip is not None
         assert (known.name, scale, metres_per_unit) == ("iof-104", 1000.0, 0.5)
-        problem = SlopeProblem("", "", "a stroke is left out", Point(4, 1))
+        problem = SlopeProblem("", "missing", "a stroke is left out", Point(4, 1))
         return SimpleNamespace(problems=[problem])
 
     monkeypatch.setattr(checking, "hatch", hatch)

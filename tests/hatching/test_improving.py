@@ -79,7 +79,10 @@ def test_strokes_far_from_trouble_stay_what_they_are() -> None:
 @settings(max_examples=30)
 def test_what_is_placed_anew_is_never_worse(strip: Strip) -> None:
     found = before(strip)
-    assert improved(found, RULE, 1.0, 0.9).badness(RULE) <= found.badness(RULE)
+    other = improved(found, RULE, 1.0, 0.9)
+    whole = 0.0, found.ground.middle.length
+    before_it = found.badness(found.laid(RULE), whole, 1.0)
+    assert other.badness(other.laid(RULE), whole, 1.0)[:2] <= before_it[:2]
 
 
 def test_calm_slopes_stay_what_they_are() -> None:
@@ -111,9 +114,12 @@ def test_stretches_hold_all_trouble_and_end_at_calm_strokes(
 ) -> None:
     trouble = np.array(flags)
     n, inside = trouble.size, np.zeros(trouble.size, dtype=bool)
-    for first, last in stretches(trouble, is_closed):
-        assert first < 0 or not trouble[first]
-        assert last < 0 or not trouble[last]
+    kept = np.ones(n, dtype=bool)
+    for first, last in stretches(trouble, kept, is_closed):
+        assert first < 0 or not trouble[first] or trouble[kept].all()
+        assert last < 0 or not trouble[last] or trouble[kept].all()
         stop = n if last < 0 else last + n * (is_closed and last <= first)
         inside[np.arange(first + 1, stop) % n] = True
+        if first == last >= 0:
+            inside[first] = True  # the one that has to stay
     assert (trouble <= inside).all()

@@ -203,6 +203,8 @@ def matching(
         yield Finding(slope.id, "unmatched", str(error), Point(middle.x, middle.y))
         return
     for problem in done.problems:
+        if problem.kind != "missing":
+            continue  # of the drawing, not of the data
         yield Finding(slope.id, "unmatched", problem.reason, problem.where)
 
 

@@ -45,7 +45,8 @@ class Hatching:
     spacing : (n - 1,) array of float, (n,) on a closed slope
         Distances from each stroke to the next one along the middle line.
     problems : list of Problem
-        Places where a stroke had to be left out or shortened, with the reason.
+        Places where a stroke had to be left out or shortened, or where strokes exceed a bound,
+        with the reason.
     strip, standard, scale
         What was hatched, and how.
     rule : Rule
@@ -109,8 +110,8 @@ def hatch(
     Parameters
     ----------
     strip : Strip
-        The slope: ``main`` is its top, ``auxiliary`` its toe. Both may be closed. Islands are left
-        out: strokes that would meet one are not drawn.
+        The slope: ``main`` is its top, ``auxiliary`` its toe. Both may be closed. Strokes that
+        would meet an island end before it.
     standard : str or Standard, default "pl-2021-slope-unreinforced"
         How strokes are spaced and how long they are, on paper; ``midrib.standards()`` lists them.
     scale : float, default 500
@@ -228,8 +229,8 @@ def hatch(
         drawn, where = draw_by_matching(
             strip, ground, start, offset, end_strokes, stiffness, top_share
         )
-    edges = None if where is None else where.middle.edges
-    finished = finish(drawn, ground, least, first, zones, strip, edges)
+    curves = None if where is None else where.curves
+    finished = finish(drawn, ground, least, first, zones, strip, curves, offset)
     made = assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )

@@ -2,53 +2,106 @@
 
 import numpy as np
 
-from midrib.hatching.laying import Found, draw_at, ratios_of
+from midrib.hatching.bounds import Laid
+from midrib.hatching.laying import Found, Ground, draw_at
 from midrib.hatching.rule import Rule
-from midrib.kernels.ladder import TAU, THETA, Strokes, turn_rungs
+from midrib.kernels.fans import Wanted
+from midrib.kernels.gauging import NORMAL, STEP, Course, allowed_turns
+from midrib.kernels.ladder import TAU, THETA, Strokes, draw_strokes, turn_rungs
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
 
 __all__ = ["improved"]
 
 BESIDE = 6  # calm strokes on either side of trouble that are placed anew too
+Chosen = tuple[int, int, Floats]  # first and last stroke of a stretch, which stay; and new ones
 
 
 def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found:
-    """Place strokes anew where they had to be mended: turned, they ask for other gaps.
+    """Place strokes anew where they are beyond a bound: turned, they ask for other gaps.
 
     Each stretch in trouble, with some calm strokes beside it, is filled by the cheapest sequence of
-    chords. What comes of it is taken only if it is better.
+    chords. What comes of it is taken where it is better.
     """
-    strokes, kept, ground = found
-    middle, ladder = ground.middle, ground.ladder
-    if kept.size < 2 or not (trouble := found.trouble(rule)).any():
+    kept, ground, laid = found.kept, found.ground, found.laid(rule)
+    if kept.size < 2 or not (trouble := found.trouble(laid)).any():
         return found
-    ratios = ratios_of(strokes, ground, rule)
-    calm = ~(trouble[: ratios.size] | np.roll(trouble, -1)[: ratios.size])
-    stretch = float(np.median(ratios[calm])) if np.count_nonzero(calm) > 1 else 1.0
-    chosen = []
-    for first, last in stretches(trouble, middle.is_closed):
-        if middle.is_closed and first < 0:
-            return found  # no calm stroke to begin with
+    steps = laid.between(STEP)
+    stretch = float(np.median(steps)) if steps.size > 1 else 1.0
+    period = len(rule.pattern) if ground.middle.is_closed else 1
+    ends = stretches(trouble, kept, ground.middle.is_closed)
+    spans = [span(found, first, last) for first, last in ends]
+    allowed, upright = bounds_at_rungs(ground, spans)
+    chosen: list[Chosen] = []
+    for first, last in ends:
+        inner = (last - first - 1) % kept.size if ground.middle.is_closed else 0
+        wanted = Wanted(offset, stretch, stiffness, period, (inner + 1) % period)
         new = choose_places(
-            ladder, strokes, ground.spacing, first, last, offset, stretch, stiffness,
-            middle.periods,
+            ground.ladder, found.strokes, ground.spacing, first, last, wanted,
+            ground.middle.periods, allowed, upright,
         )  # fmt: skip
-        if not len(new):
-            return found
-        chosen.append((first, last, new))
-    stations, turns = spliced(strokes, chosen, middle.periods[2])
-    if middle.is_closed and (len(stations) - len(kept)) % len(rule.pattern):
+        if len(new):
+            chosen.append((first, last, new))
+    other = with_chosen(found, chosen, stiffness)
+    now, better = other.laid(rule), []
+    for part in chosen:
+        between = span(found, *part[:2])
+        if other.badness(now, between, offset) < found.badness(laid, between, offset):
+            better.append(part)
+    return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
+
+
+def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
+    """How far neighbours may turn at each rung, and the normal of the top, in radians.
+
+    Only from some stations to others; elsewhere it is infinite and NaN.
+    """
+    ladder, curves = ground.ladder, ground.curves
+    tau, period = ladder.rungs[:, TAU], ground.middle.periods[2]
+    near = np.zeros(tau.size, dtype=np.bool_)
+    for low, high in spans:
+        ahead = (tau - low) % period if period > 0.0 else tau - low
+        near |= (ahead >= 0.0) & (ahead <= high - low)
+    near |= np.roll(near, 1) | np.roll(near, -1)
+    strokes = draw_strokes(ladder, tau[near], ground.spacing)
+    station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
+    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked)
+    line, widths = Course(*curves.middle), np.ascontiguousarray(chord[:, 6])
+    allowed, upright = np.full(tau.size, np.inf), np.full(tau.size, np.nan)
+    allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
+    upright[near] = laid.gauged[:, NORMAL]
+    return allowed, upright
+
+
+def with_chosen(found: Found, chosen: list[Chosen], stiffness: float) -> Found:
+    """Strokes, some stretches of them replaced."""
+    if not chosen:
         return found
-    tau, period = ladder.rungs[:, TAU], middle.periods[2] or None
-    theta = ladder.rungs[:, THETA] + np.interp(tau, stations, turns, period=period)
+    ground = found.ground
+    ladder, periods = ground.ladder, ground.middle.periods
+    stations, turns = spliced(found.strokes, chosen, periods[2])
+    tau = ladder.rungs[:, TAU]
+    order = np.argsort(stations)
+    at, by = stations[order], turns[order]
+    theta = ladder.rungs[:, THETA] + np.interp(tau, at, by, period=periods[2] or None)
+    drawn = draw_at(ground, stations, stiffness, turns)
     turned = ground._replace(ladder=turn_rungs(ladder, theta, ground.spacing))
-    other = draw_at(turned, stations, stiffness, is_final=True)
-    return other if other.badness(rule) < found.badness(rule) else found
+    return drawn._replace(ground=turned)
 
 
-def stretches(trouble: Bools, is_closed: bool) -> list[tuple[int, int]]:
-    """First and last stroke of each stretch, calm ones; -1 at an end of the slope."""
+def span(found: Found, first: int, last: int) -> tuple[float, float]:
+    """Stations from which to which a stretch reaches."""
+    station, middle = found.strokes.pivot[:, 0], found.ground.middle
+    low = float(station[first]) if first >= 0 else 0.0
+    high = float(station[last]) if last >= 0 else middle.length
+    return low, high + (middle.periods[2] if middle.is_closed and high <= low else 0.0)
+
+
+def stretches(trouble: Bools, kept: Bools, is_closed: bool) -> list[tuple[int, int]]:
+    """First and last stroke of each stretch, calm ones; -1 at an end of the slope.
+
+    Round a closed slope without a calm one, a stretch leads from one stroke that stays to itself.
+    """
     n = trouble.size
     near = trouble.copy()
     for k in range(1, BESIDE + 1):
@@ -58,7 +111,11 @@ def stretches(trouble: Bools, is_closed: bool) -> list[tuple[int, int]]:
                 moved[(slice(n + way, None) if way < 0 else slice(0, way))] = False
             near |= moved
     if near.all():
-        return [(-1, -1)]
+        if not is_closed:
+            return [(-1, -1)]
+        some = kept if trouble[kept].all() else ~trouble
+        row = int(np.argmax(some))
+        return [(row, row)] if some.any() else []
     first = int(np.argmin(near)) if is_closed else 0
     edges = np.flatnonzero(np.diff(np.roll(near, -first), prepend=False, append=False))
     found = []
@@ -69,9 +126,7 @@ def stretches(trouble: Bools, is_closed: bool) -> list[tuple[int, int]]:
     return found
 
 
-def spliced(
-    strokes: Strokes, chosen: list[tuple[int, int, Floats]], period: float
-) -> tuple[Floats, Floats]:
+def spliced(strokes: Strokes, chosen: list[Chosen], period: float) -> tuple[Floats, Floats]:
     """Stations and turns of all strokes in order, those of some stretches replaced."""
     station = strokes.pivot[:, 0]
     stays = np.ones(station.size, dtype=np.bool_)
@@ -81,7 +136,7 @@ def spliced(
             stays[first + 1 : stop] = False
         else:  # round a closed slope
             stays[first + 1 :], stays[:stop] = False, False
-    old = np.column_stack([station[stays], np.zeros(np.count_nonzero(stays))])
+    old = np.column_stack([station, strokes.pivot[:, 4] - strokes.pivot[:, 3]])[stays]
     rows = np.concatenate([old, *(new for _, _, new in chosen)])
     order = rows[:, 0]
     if period > 0.0:  # as before: the stroke that is now where the first one was is the first

@@ -4,16 +4,19 @@ from typing import NamedTuple
 
 import numpy as np
 
+from midrib.hatching.bounds import Curves, Laid, most_at_ends
 from midrib.hatching.middle import Middle
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_strokes
-from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, MOST_TURN, mend
+from midrib.kernels.gauging import NORMAL, STEP
+from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_turned
+from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
 from midrib.types import Bools, Floats
 
-__all__ = ["Found", "Ground", "draw_at", "ratios_of"]
+__all__ = ["Found", "Ground", "draw_at"]
 
 UNEVEN = 0.1  # logarithm of a gap over the others' ratio to the rule: from there on it is trouble
+WITHIN = 1e-9  # relative, for rounding
 
 
 class Ground(NamedTuple):
@@ -24,6 +27,11 @@ class Ground(NamedTuple):
     spacing: Spacing
     from_right: bool
 
+    @property
+    def curves(self) -> Curves:
+        """Middle line and edges."""
+        return self.middle.curves
+
 
 class Found(NamedTuple):
     """Strokes of a slope in order along its middle line, which of them stay, and their ground."""
@@ -32,77 +40,75 @@ class Found(NamedTuple):
     kept: Bools
     ground: Ground
 
-    def trouble(self, rule: Rule) -> Bools:
-        """Which strokes had to be mended, or are not a gap from a neighbour, or turn too far."""
-        strokes, ground = self.strokes, self.ground
-        found: Bools = ~self.kept | (strokes.pivot[:, 4] != strokes.pivot[:, 3])
-        ratios = ratios_of(strokes, ground, rule)
-        is_off = abs(np.log(ratios / np.median(ratios))) > UNEVEN
-        is_off |= turns_of(strokes, ground) > MOST_TURN
-        found[: is_off.size] |= is_off
-        found[(np.flatnonzero(is_off) + 1) % found.size] = True
+    def laid(self, rule: Rule) -> Laid:
+        """Those that stay, as bounds are checked."""
+        chord = self.strokes.chord[self.kept]
+        station = self.strokes.pivot[self.kept, 0]
+        curves = self.ground.curves
+        return Laid(curves, station, chord[:, :2], chord[:, 2:6], rule.gaps(chord[:, 6]))
+
+    def trouble(self, laid: Laid) -> Bools:
+        """Which strokes are left out or beyond a bound, or not a gap from a neighbour.
+
+        What was mended and keeps the bounds all the same is no trouble.
+        """
+        found: Bools = ~self.kept
+        rows = np.flatnonzero(self.kept)
+        found[rows[laid.beyond[:, NORMAL] > 0.0]] = True
+        steps = laid.between(STEP)
+        if steps.size:
+            is_off = laid.beyond[: steps.size, :NORMAL].any(axis=1)
+            is_off |= abs(np.log(steps / np.median(steps))) > UNEVEN
+            pairs = np.flatnonzero(is_off)
+            found[rows[pairs]] = True
+            found[rows[(pairs + 1) % rows.size]] = True
         return found
 
-    def badness(self, rule: Rule) -> tuple[int, float]:
-        """Return strokes left out, and how far the worst places are beyond what they may be.
+    def badness(
+        self, laid: Laid, between: tuple[float, float], offset: float
+    ) -> tuple[int, float, float]:
+        """How bad strokes are from one station to another, on a closed slope past its start.
 
-        That is the logarithm of the largest gap over the smallest, both over what the rule asks
-        for, and of feet that are too far or too near, and the turn beyond the most, in radians.
+        How many are left out, how far the others are beyond bounds, and how uneven they are: the
+        logarithm of the largest gap over the smallest.
         """
-        pivot, triangle, chord, on = self.strokes
-        some = Strokes(pivot[self.kept], triangle[self.kept], chord[self.kept], on[self.kept])
-        ratios = ratios_of(some, self.ground, rule)
-        worst = 0.0
-        if ratios.size:
-            feet = feet_of(some, self.ground, rule)
-            worst = float(
-                np.log(ratios.max() / ratios.min())
-                + max(np.log(feet.max() / MOST_FOOT), 0.0)
-                + max(np.log(LEAST_FOOT / feet.min()), 0.0)
-                + max(turns_of(some, self.ground).max() - MOST_TURN, 0.0)
-            )
-        return int(np.count_nonzero(~self.kept)), worst
+        period = self.ground.middle.periods[2]
+        low, high = between
+
+        def inside(stations: Floats) -> Bools:
+            ahead = (stations - low) % period if period > 0.0 else stations - low
+            within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
+            return within
+
+        missing = int(np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0])))
+        some = inside(laid.station)
+        steps = laid.between(STEP)
+        pairs = (some & np.roll(some, -1))[: steps.size]
+        beyond = laid.beyond[: steps.size, :NORMAL][pairs].sum() + laid.beyond[some, NORMAL].sum()
+        if period == 0.0:
+            reached = np.array([low <= 0.0, high >= self.ground.middle.length])
+            beyond += np.log(np.maximum(laid.end_gaps / most_at_ends(offset), 1.0))[reached].sum()
+        ratio = steps[pairs].max() / steps[pairs].min() if pairs.any() else 1.0
+        return missing, round(float(beyond), 4), round(float(np.log(ratio)), 4)
 
 
-def ratios_of(strokes: Strokes, ground: Ground, rule: Rule) -> Floats:
-    """Gaps over what the rule asks for; of a closed slope, the last one is back to the first."""
-    gap, period = rule.gaps(strokes.chord[:, 6]), ground.middle.periods[2]
-    steps = np.diff(strokes.pivot[:, 0], append=strokes.pivot[:1, 0] + period)
-    ratios: Floats = steps / ((gap + np.roll(gap, -1)) / 2.0)
-    return ratios if period > 0.0 else ratios[:-1]
-
-
-def feet_of(strokes: Strokes, ground: Ground, rule: Rule) -> Floats:
-    """(k, 2) distances between feet along both edges, over the gaps that the rule asks for."""
-    gap, periods = rule.gaps(strokes.chord[:, 6]), ground.middle.periods
-    steps = np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]
-    if periods[2] > 0.0:
-        steps %= periods[:2]
-    feet: Floats = steps / ((gap + np.roll(gap, -1)) / 2.0)[:, None]
-    return feet if periods[2] > 0.0 else feet[:-1]
-
-
-def turns_of(strokes: Strokes, ground: Ground) -> Floats:
-    """Angles between neighbours; of a closed slope, the last one is back to the first."""
-    theta, rungs = strokes.pivot[:, 4], ground.ladder.rungs
-    lap = rungs[-1, THETA] - rungs[0, THETA]
-    turns: Floats = abs(np.diff(theta, append=theta[:1] + lap))
-    return turns if ground.middle.is_closed else turns[:-1]
-
-
-def draw_at(ground: Ground, stations: Floats, stiffness: float, *, is_final: bool = False) -> Found:
+def draw_at(
+    ground: Ground, stations: Floats, stiffness: float, turns: Floats | None = None
+) -> Found:
     """Draw strokes at stations in order along the middle line, and mend them.
 
-    If their directions are final, those that will not do are only left out.
+    If they are told how much to turn, directions are final: those that will not do are left out.
     """
     middle, ladder, spacing, _ = ground
+    is_final = turns is not None
+    turned = np.zeros(len(stations)) if turns is None else turns
     if not middle.is_closed:
-        strokes = draw_strokes(ladder, stations, spacing)
+        strokes = draw_turned(ladder, stations, turned, spacing)
         return Found(strokes, mend(ladder, strokes, middle.periods, stiffness, is_final), ground)
     length, turn = ladder.rungs[-1, TAU], ladder.rungs[-1, THETA] - ladder.rungs[0, THETA]
     stations = stations % length
     first = int(np.argmin(stations))
-    strokes = draw_strokes(ladder, np.roll(stations, -first), spacing)
+    strokes = draw_turned(ladder, np.roll(stations, -first), np.roll(turned, -first), spacing)
     # Mending goes from a calm stroke round to itself.
     seam = calmest(strokes, middle.periods)
     strokes = with_first_again(rolled(strokes, seam, length, turn), length, turn)

@@ -7,7 +7,10 @@ import numpy as np
 import shapely
 from shapely import LineString
 
+from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
+from midrib.hatching.chains import chain_of
 from midrib.kernels.crossings import meet
+from midrib.kernels.gauging import ALLOWED, STEP, TOE, TOP, TURN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -17,10 +20,8 @@ if TYPE_CHECKING:
     from midrib.strip import Strip
     from midrib.types import Bools, Floats
 
-__all__ = ["Measures", "crossings", "measure", "measure_strokes"]
+__all__ = ["Measures", "crossings", "measure", "measure_strokes", "untold"]
 
-LEAST_TURN = 20.0  # degrees: so much neighbours may turn anyway
-STRAIGHT = 10.0  # degrees: an edge that turns less within two widths has no corner there
 ON_EDGE, ROUNDING = 1e-9, 2.0**-48  # of the extent, and of the coordinates
 
 
@@ -50,7 +51,7 @@ class Measures:
         Largest distance along the middle line from its ends to the next stroke, in gaps; 0 if
         closed.
     least_foot : float
-        Smallest distance along the edges between ends of strokes that are drawn there, in gaps.
+        Smallest distance between neighbouring ends of strokes that are drawn on an edge, in gaps.
     turns : (k,) array
         Degrees between neighbours.
     allowed : (k,) array
@@ -59,6 +60,8 @@ class Measures:
     tilts : (m,) array
         Degrees between a stroke and the normal of the top, where both edges are straight for two
         widths to either side and parallel, but for 10 degrees.
+    beyond : list of Excess
+        Places where a bound of ``midrib.hatching.bounds`` is exceeded.
     """
 
     strokes: int
@@ -74,6 +77,7 @@ class Measures:
     turns: "Floats"
     allowed: "Floats"
     tilts: "Floats"
+    beyond: list[Excess]
 
 
 def measure(hatching: "Hatching") -> Measures:
@@ -102,16 +106,6 @@ def measure_strokes(
     on_toe: "Floats",
 ) -> Measures:
     """Measure strokes, whoever drew them, in order along the top."""
-    main, auxiliary, closed = strip.main, strip.auxiliary, strip.is_closed
-    width = np.hypot(*(on_toe - on_top).T)
-    asked = rule.gaps(width)
-    whole = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
-    station = stations_on(middle, whole)
-    between = (asked + np.roll(asked, -1)) / 2.0
-    steps = ahead(station, middle.length if closed else 0.0)
-    count = len(steps)
-    ratios = steps / between[:count]
-    mean = float(ratios.mean()) if count else 1.0
     bounds = np.array(strip.area.bounds)
     reach = ON_EDGE * float(np.hypot(*(bounds[2:] - bounds[:2]))) + ROUNDING * abs(bounds).max()
     outside = 0.0
@@ -119,31 +113,65 @@ def measure_strokes(
         near = strip.area.buffer(reach)  # what runs along the boundary is not outside
         outside = float(shapely.length(shapely.difference(strokes, near)).sum())
     off = np.maximum(
-        shapely.distance(shapely.points(on_top), main),
-        shapely.distance(shapely.get_point(strokes, -1), auxiliary),
+        shapely.distance(shapely.points(on_top), strip.main),
+        shapely.distance(shapely.get_point(strokes, -1), strip.auxiliary),
     )
-    every = np.ones(len(width), dtype=np.bool_)
-    top_steps = steps_on(main, on_top, asked, every, closed)
-    toe_steps = steps_on(auxiliary, on_toe, asked, every, closed)
-    feet = np.append(top_steps, steps_on(auxiliary, on_toe, asked, is_long, closed))
-    angle = np.unwrap(np.arctan2(*(on_toe - on_top).T[::-1]))
-    turns = abs(np.diff(np.append(angle, angle[:1]) if closed else angle))
-    turns = np.degrees(np.minimum(turns % (2 * np.pi), -turns % (2 * np.pi)))
+    laid = laid_of(strip, rule, middle, is_long & (off <= reach), on_top, on_toe)
+    width, steps = np.hypot(*(on_toe - on_top).T), laid.between(STEP)
+    mean = float(steps.mean()) if len(steps) else 1.0
+    tilts = laid.tilts
     return Measures(
         strokes=len(strokes),
         crossings=crossings(strokes),
         outside=outside / float(width.mean()) if len(width) else 0.0,
         short_of_edge=int(np.count_nonzero(is_long & (off > reach))),
-        spacing=ratios / mean,
+        spacing=steps / mean,
         stretch=mean,
-        top_gap=float(top_steps.max(initial=0.0)),
-        toe_gap=float(toe_steps.max(initial=0.0)),
-        end_gap=0.0 if closed else end_gap(station, asked, middle.length),
-        least_foot=float(feet.min(initial=np.inf)),
-        turns=turns,
-        allowed=turn_allowed(middle, station, width, asked, closed)[: len(turns)],
-        tilts=tilts_of(strip, on_top, on_toe, width),
+        top_gap=float(laid.between(TOP).max(initial=0.0)),
+        toe_gap=float(laid.between(TOE).max(initial=0.0)),
+        end_gap=0.0 if strip.is_closed else float(laid.end_gaps.max()),
+        least_foot=laid.feet_apart,
+        turns=np.degrees(laid.between(TURN)),
+        allowed=np.degrees(laid.between(ALLOWED)),
+        tilts=tilts[~np.isnan(tilts)],
+        beyond=excesses(laid) + far_ends(laid),
     )
+
+
+def untold(hatching: "Hatching", found: Measures) -> list[Excess]:
+    """Places where strokes are beyond a bound and no problem of the hatching says so there.
+
+    There is between the two strokes, or at the one, but for a tenth of a gap.
+    """
+    n, told = len(hatching.strokes), shapely.MultiPoint([p.where for p in hatching.problems])
+    places = []
+    for one in found.beyond:
+        rows = [one.row, (one.row + 1) % n]
+        corners = [*hatching.on_top[rows], *hatching.on_toe[rows], one.where.coords[0]]
+        near = 0.1 * float(hatching.rule.gaps(hatching.width[rows]).min())
+        if not shapely.dwithin(shapely.MultiPoint(corners).convex_hull, told, near):
+            places.append(one)
+    return places
+
+
+def laid_of(
+    strip: "Strip",
+    rule: "Rule",
+    middle: LineString,
+    on_edge: "Bools",
+    on_top: "Floats",
+    on_toe: "Floats",
+) -> Laid:
+    """Whole strokes where they are found on the curves, whoever drew them."""
+    whole = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
+    edges = strip.main, strip.auxiliary
+    feet = [
+        shapely.line_locate_point(edge, shapely.points(ends))
+        for edge, ends in zip(edges, (on_top, on_toe), strict=True)
+    ]
+    curves = Curves(chain_of(middle), chain_of(edges[0]), chain_of(edges[1]))
+    ends, asked = np.column_stack([on_top, on_toe]), rule.gaps(np.hypot(*(on_toe - on_top).T))
+    return Laid(curves, stations_on(middle, whole), np.column_stack(feet), ends, asked, on_edge)
 
 
 def crossings(strokes: "NDArray[np.object_]") -> int:
@@ -159,93 +187,3 @@ def stations_on(middle: LineString, whole: "NDArray[np.object_]") -> "Floats":
     points = shapely.get_coordinates(shapely.get_point(shapely.shortest_line(middle, whole), 0))
     stations: Floats = shapely.line_locate_point(middle, shapely.points(points))
     return stations
-
-
-def ahead(stations: "Floats", period: float) -> "Floats":
-    """Distances between neighbours along a curve; on a closed one from last to first too."""
-    if period <= 0.0:
-        steps: Floats = abs(np.diff(stations))
-        return steps
-    forth = (np.roll(stations, -1) - stations) % period
-    return np.minimum(forth, period - forth) if len(stations) > 1 else np.empty(0)
-
-
-def steps_on(
-    edge: LineString, ends: "Floats", asked: "Floats", chosen: "Bools", closed: bool
-) -> "Floats":
-    """Distances along an edge between ends of chosen strokes, in gaps."""
-    at = shapely.line_locate_point(edge, shapely.points(ends[chosen]))
-    steps = ahead(at, edge.length if closed else 0.0)
-    between = (asked[chosen] + np.roll(asked[chosen], -1)) / 2.0
-    return steps / between[: len(steps)]
-
-
-def end_gap(station: "Floats", asked: "Floats", length: float) -> float:
-    """Largest distance from the ends of the middle line to the next stroke, in gaps."""
-    if not len(station):
-        return np.inf
-    first, last = int(np.argmin(station)), int(np.argmax(station))
-    return float(max(station[first] / asked[first], (length - station[last]) / asked[last]))
-
-
-def turn_allowed(
-    middle: LineString, station: "Floats", width: "Floats", asked: "Floats", closed: bool
-) -> "Floats":
-    """Degrees that neighbours may turn; see ``Measures``."""
-    reach = 1.5 * np.maximum(width, np.roll(width, -1))
-    at = (station + np.roll(station, -1)) / 2.0
-    total = middle.length
-    low, high = at - reach, at + reach
-    if not closed:
-        low, high = np.maximum(low, 0.0), np.minimum(high, total)
-    arc = np.append(0.0, np.cumsum(np.hypot(*np.diff(np.array(middle.coords), axis=0).T)))
-    direction = np.unwrap(np.arctan2(*np.diff(np.array(middle.coords), axis=0).T[::-1]))
-    half = (arc[1:] + arc[:-1]) / 2.0
-    if closed:
-        turn = np.round((direction[-1] - direction[0]) / (2 * np.pi)) * 2 * np.pi
-        half = np.concatenate([half - total, half, half + total])
-        direction = np.concatenate([direction - turn, direction, direction + turn])
-    theta = np.degrees(abs(np.interp(high, half, direction) - np.interp(low, half, direction)))
-    gap = (asked + np.roll(asked, -1)) / 2.0
-    allowed: Floats = np.maximum(LEAST_TURN, theta * gap / np.maximum(high - low, gap))
-    return allowed
-
-
-def tilts_of(strip: "Strip", on_top: "Floats", on_toe: "Floats", width: "Floats") -> "Floats":
-    """Degrees between strokes and the normals of the top, away from corners; see ``Measures``."""
-    top = directions(strip.main, on_top, width)
-    toe = directions(strip.auxiliary, on_toe, width)
-    across = np.degrees(np.arctan2(*(on_toe - on_top).T[::-1]))
-    calm = (spread(top) <= STRAIGHT) & (spread(toe) <= STRAIGHT)
-    calm &= abs(folded(top[:, 2] - toe[:, 2], 360.0)) <= STRAIGHT
-    tilt: Floats = abs(folded(across - top[:, 2] - 90.0, 180.0))[calm]
-    return tilt
-
-
-def directions(edge: LineString, points: "Floats", width: "Floats") -> "Floats":
-    """(n, 5) directions of an edge in degrees, each over a width, from 2 widths before to after."""
-    at = shapely.line_locate_point(edge, shapely.points(points))
-    places = at[:, None] + width[:, None] * np.array([-1.5, -0.75, 0.0, 0.75, 1.5])
-    ends = [
-        shapely.get_coordinates(
-            shapely.line_interpolate_point(
-                edge, np.clip(places + half * width[:, None], 0.0, edge.length).ravel()
-            )
-        )
-        for half in (-0.5, 0.5)
-    ]
-    step = (ends[1] - ends[0]).reshape(*places.shape, 2)
-    result: Floats = np.degrees(np.arctan2(step[..., 1], step[..., 0]))
-    return result
-
-
-def spread(directions: "Floats") -> "Floats":
-    """Largest difference of directions from the middle one, in degrees."""
-    off: Floats = abs(folded(directions - directions[:, 2:3], 360.0)).max(axis=1)
-    return off
-
-
-def folded(degrees: "Floats", period: float) -> "Floats":
-    """Angles brought to between minus and plus half a period."""
-    result: Floats = degrees - period * np.round(degrees / period)
-    return result

@@ -8,6 +8,7 @@ import shapely
 
 from midrib.curves.construction import Construction
 from midrib.errors import InvalidAreaError
+from midrib.hatching.bounds import Curves
 from midrib.hatching.chains import Chain as Edge
 from midrib.kernels.chain import Chain
 from midrib.kernels.mesh import Mesh
@@ -51,11 +52,13 @@ class Middle(NamedTuple):
         return float(np.hypot(*np.diff(self.line, axis=0).T).sum())
 
     @property
-    def edges(self) -> tuple[Edge, Edge]:
-        """Top and toe as polylines with the stations that strokes have."""
+    def curves(self) -> Curves:
+        """The line and the edges as polylines with the stations that strokes have."""
         corners = np.column_stack([self.mesh.x, self.mesh.y])
-        top, toe = (Edge(corners[c.vertex], c.arc, self.is_closed) for c in (self.top, self.toe))
-        return top, toe
+        steps = np.hypot(*np.diff(self.line, axis=0).T)
+        closed = self.is_closed
+        edges = (Edge(corners[c.vertex], c.arc, closed) for c in (self.top, self.toe))
+        return Curves(Edge(self.line, np.append(0.0, np.cumsum(steps)), closed), *edges)
 
     @property
     def periods(self) -> Floats:

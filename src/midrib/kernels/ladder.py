@@ -29,7 +29,17 @@ from midrib.kernels.paths import walk
 from midrib.kernels.tables import with_rows
 from midrib.types import Floats, Ints
 
-__all__ = ["Ladder", "Spacing", "Strokes", "build_ladder", "draw_strokes", "gap_at", "turn_rungs"]
+__all__ = [
+    "Ladder",
+    "Spacing",
+    "Strokes",
+    "build_ladder",
+    "draw_strokes",
+    "draw_turned",
+    "follow",
+    "gap_at",
+    "turn_rungs",
+]
 
 RUNGS = 8.0  # for each gap
 MOST_RUNGS = 2**24
@@ -275,17 +285,22 @@ def build_ladder(
         n += 1
     # 3. Gaps, by the chords in these directions.
     ladder = Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
-    measure_gaps(ladder, rule)
+    measure_gaps(ladder, rule, np.full(n, np.nan))
     return ladder
 
 
 @njit(borrows=True)
-def measure_gaps(ladder: Ladder, rule: Spacing) -> None:
-    """Write the lengths of the chords of all rungs, and the gaps they ask for."""
+def measure_gaps(ladder: Ladder, rule: Spacing, known: Floats) -> None:
+    """Write the lengths of the chords of all rungs, and the gaps they ask for.
+
+    What has the ``known`` direction has its length already.
+    """
     rungs, line = ladder.rungs, ladder.line
     n, m = rungs.shape[0], line.shape[0]
     for i in range(n):
         x, y, theta = rungs[i, X], rungs[i, Y], rungs[i, THETA]
+        if theta == known[i]:
+            continue
         chord = shoot(ladder.ground, ladder.at[i, 0], x, y, theta)
         rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
     if line[0, 0] != line[m - 1, 0] or line[0, 1] != line[m - 1, 1]:  # open: see build_ladder
@@ -297,9 +312,10 @@ def measure_gaps(ladder: Ladder, rule: Spacing) -> None:
 def turn_rungs(ladder: Ladder, theta: Floats, rule: Spacing) -> Ladder:
     """Return the ladder with other directions of its rungs, and the gaps that they ask for."""
     rungs = with_rows(ladder.rungs, ladder.rungs.shape[0])
+    known = rungs[:, THETA].copy()
     rungs[:, THETA] = theta
     turned = Ladder(ladder.ground, ladder.line, ladder.arc, rungs, ladder.at)
-    measure_gaps(turned, rule)
+    measure_gaps(turned, rule, known)
     return turned
 
 
@@ -319,6 +335,12 @@ def draw_strokes(ladder: Ladder, stations: Floats, rule: Spacing) -> Strokes:
 
     An end that lies on the wrong edge is for ``mend`` to see to.
     """
+    return draw_turned(ladder, stations, np.zeros(stations.size), rule)
+
+
+@njit(entry=True)
+def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) -> Strokes:
+    """Draw whole strokes at stations, in increasing order, turned from the ladder's directions."""
     rungs, at, line, arc = ladder.rungs, ladder.at, ladder.line, ladder.arc
     n = stations.size
     strokes = Strokes(
@@ -334,9 +356,9 @@ def draw_strokes(ladder: Ladder, stations: Floats, rule: Spacing) -> Strokes:
             ladder.ground.mesh, line, arc, at[j, 0], at[j, 1], rungs[j, X], rungs[j, Y], tau
         )
         theta = rungs[j, THETA] + share * (rungs[j + 1, THETA] - rungs[j, THETA])
-        chord = shoot(ladder.ground, t, x, y, theta)
+        chord = shoot(ladder.ground, t, x, y, theta + turns[i])
         strokes.pivot[i, 0], strokes.pivot[i, 1], strokes.pivot[i, 2] = tau, x, y
-        strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta
+        strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta + turns[i]
         strokes.pivot[i, 5] = gap_at(rule, chord.width)
         strokes.triangle[i] = t
         write_chord(strokes, i, chord)

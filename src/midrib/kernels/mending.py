@@ -123,6 +123,7 @@ def choose(
     n, m = last - first + 1, 2 * half + 1
     theta, foot = np.empty((n, m)), np.full((n, m, 2), np.nan)
     cost, came = np.full((n, m), np.inf), np.full((n, m), -1, np.intp)
+    least = np.full(n, np.inf)
     # 1. The fans.
     for k in range(n):
         i = first + k
@@ -149,9 +150,12 @@ def choose(
             tilt = theta[k, c] - strokes.pivot[i, 3]
             if k == 0 or not fixed[0]:
                 cost[k, c] = OMISSION * k + tilt * tilt
-            for before in range(max(k - 1 - SKIP, 0), k):
+            for before in range(k - 1, max(k - 1 - SKIP, 0) - 1, -1):
+                missing = OMISSION * (k - 1 - before)
+                if least[before] + missing + tilt * tilt >= cost[k, c]:
+                    continue
                 for d in range(m):
-                    if np.isinf(cost[before, d]):
+                    if cost[before, d] + missing + tilt * tilt >= cost[k, c]:
                         continue
                     j = first + before
                     ahead = advance(strokes, j, i, foot[before, d, 0], foot[k, c, 0], 0, periods)
@@ -166,6 +170,7 @@ def choose(
                     )
                     if way < cost[k, c]:
                         cost[k, c], came[k, c] = way, before * m + d
+            least[k] = min(least[k], cost[k, c])
     # 3. The cheapest of all, from its end back; what it passes over is left out.
     best, at = np.inf, -1
     for k in range(n):

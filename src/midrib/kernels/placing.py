@@ -1,63 +1,53 @@
 r"""Placing: where strokes are and how they run on a stretch that calm ones do not suit.
 
-On every rung of the stretch there is a fan of chords. Of all sequences of chords that advance on
-both edges the cheapest is looked for, by dynamic programming: how many there are, on which rungs,
-and in which directions. Then the fans are narrowed around the choice, on its rungs.
+At places along the stretch there are fans of chords. Of all sequences of chords that advance on
+both edges the cheapest is looked for (``ways``): how many there are, at which places, and in which
+directions. Then places and directions become finer around the choice.
 
        first                 last      calm strokes that stay, or an end of the slope
          |  \|/ \|/ \|/ \|/   |
-         o   o   o   o   o    o        rungs, each with a fan of chords; some are left out
+         o   o   o   o   o    o        places, each with a fan of chords; some are left out
 
-l         logarithm of a gap over what the rule asks for, stretched as on the rest of the slope
-bend      how much more neighbours turn than calm ones do
+place     station along the middle line, counted in rungs of the ladder, on a closed slope on after
+          the last one
 """
 
 import numpy as np
 
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
+from midrib.kernels.fans import Fans, Wanted, cheapest_way, middle_of_fans
 from midrib.kernels.jit import njit
-from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, X, Y, gap_at
-from midrib.kernels.mending import FOOT_COST, LEAST_FOOT, MOST_FOOT, MOST_TURN
+from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, X, Y, follow, gap_at
 from midrib.types import Floats
 
 __all__ = ["choose_places"]
 
+COARSE = 2  # rungs from one place to the next
 FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
-NARROW, NARROWER, LEVELS = 4, 0.25, 3  # directions on either side, step over the one before
-GAP_COST, UNEVEN_COST = 5.0, 200.0  # for each l squared, and for what is beyond UNEVEN
-TURN_COST = 200.0  # for each squared radian of a turn that is too large
-UNEVEN, FARTHEST = 0.1, 0.7  # of l
-AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
-TURN_ROOM = 0.9  # of the most turn: what the rungs' width may still add to one
-NEAR_ROOM, FAR_ROOM = 1.5, 0.95  # of the nearest and farthest feet, likewise
-TIED = 1.0 - 2.0**-30  # a way that is cheaper by less is as cheap, whatever rounding says
+LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as much, relative
+NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
+FINER, LEVELS = (-1.0, 0.0, 1.0), 4  # places then, in steps that are halved as well
+TILT_WALL, TILT_ROOM = 400.0, 0.95  # for each squared radian beyond so much of the most tilt
+MOST_TILT = np.pi / 18.0  # from the normal of the top
 
 
 @njit(borrows=True)
-def cost_of_end(away: float, gap: float) -> float:
-    """Cost of a first or last stroke that is so far from the end, where it should be a gap."""
-    off = abs(np.log(away / gap)) if away > 0.0 else np.inf
-    return AT_END * off * off if off < FARTHEST_END else np.inf
-
-
-@njit(borrows=True)
-def cost_of_gap(off: float) -> float:
-    """Cost of a gap whose logarithm is so far off."""
-    uneven = max(off - UNEVEN, 0.0)
-    return GAP_COST * off * off + UNEVEN_COST * uneven * uneven
-
-
-@njit(borrows=True)
-def cost_of_foot(foot: float) -> float:
-    """Cost of feet that are so many gaps apart; they have to advance."""
-    if foot <= 0.0:
-        return np.inf
-    off = max(NEAR_ROOM * LEAST_FOOT - foot, foot - FAR_ROOM * MOST_FOOT, 0.0)
-    return FOOT_COST * off * off
+def station_at(rungs: Floats, place: float, periods: Floats) -> tuple[int, float, float]:
+    """Rung at or before a place, share of the way to the next one, and station; infinite past."""
+    lap = rungs.shape[0] - 1
+    k = int(np.floor(place))
+    share, laps = place - k, 0
+    if periods[2] > 0.0:
+        laps = k // lap
+        k -= laps * lap
+    elif k >= lap:
+        return lap, 0.0, rungs[lap, TAU] if place == lap else np.inf
+    step = rungs[k + 1, TAU] - rungs[k, TAU]
+    return k, share, rungs[k, TAU] + share * step + laps * periods[2]
 
 
 @njit()
-def cheapest_way(
+def open_fans(
     ladder: Ladder,
     strokes: Strokes,
     rule: Spacing,
@@ -65,103 +55,53 @@ def cheapest_way(
     half: int,
     step: float,
     fixed: tuple[int, int],
-    offset: float,
-    stretch: float,
-    stiffness: float,
     periods: Floats,
-) -> Floats:
-    """Return the cheapest sequence, as rows of ``places``; none if none is.
-
-    These are the rung, on a closed slope counted on after the last one, and the turn that the fan
-    of 2 half + 1 directions is around; fixed strokes are the first and the last one, whose rung is
-    no matter.
-    """
+    allowed: Floats,
+    upright: Floats,
+) -> Fans:
+    """Shoot the chords of all fans; of a fixed stroke, the first or the last, only its own one."""
     n, m = places.shape[0], 2 * half + 1
-    rungs, lap = ladder.rungs, ladder.rungs.shape[0] - 1
-    tau, calm = np.empty(n), np.empty(n)
-    feet, width, gap = np.full((n, m, 2), np.nan), np.empty((n, m)), np.empty((n, m))
-    cost, came = np.full((n, m), np.inf), np.full((n, m), -1, np.intp)
-    # 1. The fans.
+    rungs, lap, mesh = ladder.rungs, ladder.rungs.shape[0] - 1, ladder.ground.mesh
+    tau, calm, most = np.empty(n), np.empty(n), np.empty(n)
+    turn, feet = np.empty((n, m)), np.empty((n, m, 2))
+    width, gap, cost = np.empty((n, m)), np.empty((n, m)), np.full((n, m), np.inf)
     for i in range(n):
         row = fixed[0] if i == 0 else fixed[1] if i == n - 1 else -1
         if row >= 0:
             tau[i], calm[i] = strokes.pivot[row, 0], strokes.pivot[row, 3]
+            most[i] = allowed[min(max(np.searchsorted(rungs[:, TAU], tau[i]), 0), lap)]
             if i > 0 and tau[i] <= tau[0]:  # round a closed slope
                 tau[i] += periods[2]
                 calm[i] += rungs[lap, THETA] - rungs[0, THETA]
+            turn[i, half] = strokes.pivot[row, 4] - strokes.pivot[row, 3]
             feet[i, half, 0], feet[i, half, 1] = strokes.chord[row, 0], strokes.chord[row, 1]
             width[i, half] = strokes.chord[row, 6]
-            gap[i, half] = stretch * gap_at(rule, width[i, half])
+            gap[i, half], cost[i, half] = gap_at(rule, width[i, half]), 0.0
             continue
-        k, laps = int(places[i, 0]), 0
+        k, share, tau[i] = station_at(rungs, places[i, 0], periods)
+        t, x, y = ladder.at[k, 0], rungs[k, X], rungs[k, Y]
+        theta, most[i] = rungs[k, THETA], allowed[k]
+        if share > 0.0:
+            on_line = rungs[k, TAU] + share * (rungs[k + 1, TAU] - rungs[k, TAU])
+            t, _, x, y = follow(mesh, ladder.line, ladder.arc, t, ladder.at[k, 1], x, y, on_line)
+            theta += share * (rungs[k + 1, THETA] - theta)
+        calm[i] = theta
         if periods[2] > 0.0:
-            k, laps = k % lap, k // lap
-        tau[i] = rungs[k, TAU] + laps * periods[2]
-        calm[i] = rungs[k, THETA] + laps * (rungs[lap, THETA] - rungs[0, THETA])
+            calm[i] += (places[i, 0] // lap) * (rungs[lap, THETA] - rungs[0, THETA])
         for c in range(m):
-            theta = rungs[k, THETA] + places[i, 1] + (c - half) * step
-            chord = shoot(ladder.ground, ladder.at[k, 0], rungs[k, X], rungs[k, Y], theta)
-            width[i, c], gap[i, c] = chord.width, stretch * gap_at(rule, chord.width)
-            if chord.top_on == ON_TOP and chord.toe_on == ON_TOE:
-                feet[i, c, 0], feet[i, c, 1] = chord.s, chord.t
-    # 2. The cheapest way to each chord.
-    for i in range(n):
-        is_first, is_last = fixed[0] >= 0 and i == 0, fixed[1] >= 0 and i == n - 1
-        for c in range(half, half + 1) if is_first or is_last else range(m):
-            if np.isnan(feet[i, c, 0]):
+            turn[i, c] = places[i, 1] + (c - half) * step
+            chord = shoot(ladder.ground, t, x, y, theta + turn[i, c])
+            if chord.top_on != ON_TOP or chord.toe_on != ON_TOE:
                 continue
-            turn = places[i, 1] + (c - half) * step
-            tilt = turn * turn
-            if is_first:
-                cost[i, c] = tilt
-                continue
-            if fixed[0] < 0:
-                cost[i, c] = tilt + cost_of_end(tau[i], offset * gap[i, c])
-            for j in range(i - 1, -1, -1):
-                ahead = tau[i] - tau[j]
-                if ahead > 2.0 * np.exp(FARTHEST) * gap[i, c]:
-                    break
-                for d in range(m):
-                    if not cost[j, d] < TIED * cost[i, c]:
-                        continue
-                    b = (gap[i, c] + gap[j, d]) / 2.0
-                    off = abs(np.log(ahead / b))
-                    if off > FARTHEST:
-                        continue
-                    bend = turn - places[j, 1] - (d - half) * step
-                    reach = stiffness * (width[i, c] + width[j, d]) / 2.0
-                    over = max(abs(calm[i] - calm[j] + bend) - TURN_ROOM * MOST_TURN, 0.0)
-                    way = cost[j, d] + tilt + cost_of_gap(off) + TURN_COST * over * over
-                    way += reach * reach / (ahead * b) * bend * bend
-                    for edge in range(2):
-                        foot, period = feet[i, c, edge] - feet[j, d, edge], periods[edge]
-                        if period > 0.0:
-                            expected = ahead / periods[2] * period
-                            foot -= period * np.round((foot - expected) / period)
-                        way += cost_of_foot(foot / b)
-                    if way < TIED * cost[i, c]:
-                        cost[i, c], came[i, c] = way, j * m + d
-    # 3. The cheapest of all, from its end back.
-    best, at = np.inf, -1
-    for i in range(n - 1 if fixed[1] >= 0 else 0, n):
-        for c in range(m):
-            if np.isinf(cost[i, c]):
-                continue
-            total = cost[i, c]
-            if fixed[1] < 0:
-                total += cost_of_end(rungs[lap, TAU] - tau[i], offset * gap[i, c])
-            if total < TIED * best:
-                best, at = total, i * m + c
-    count, back = 0, at
-    while back >= 0:
-        count, back = count + 1, came[back // m, back % m]
-    found = np.empty((count, 2))
-    while at >= 0:
-        count -= 1
-        i, c = at // m, at % m
-        found[count, 0], found[count, 1] = places[i, 0], places[i, 1] + (c - half) * step
-        at = came[i, c]
-    return found
+            feet[i, c, 0], feet[i, c, 1] = chord.s, chord.t
+            width[i, c], gap[i, c] = chord.width, gap_at(rule, chord.width)
+            cost[i, c] = turn[i, c] * turn[i, c]
+            if not np.isnan(upright[k]):
+                off = theta + turn[i, c] - upright[k]
+                off = abs(off - np.pi * np.round(off / np.pi))
+                over = max(off - TILT_ROOM * MOST_TILT, 0.0)
+                cost[i, c] += TILT_WALL * over * over
+    return Fans(tau, calm, most, turn, feet, width, gap, cost)
 
 
 @njit(entry=True)
@@ -171,10 +111,10 @@ def choose_places(
     rule: Spacing,
     first: int,
     last: int,
-    offset: float,
-    stretch: float,
-    stiffness: float,
+    wanted: Wanted,
     periods: Floats,
+    allowed: Floats,
+    upright: Floats,
 ) -> Floats:
     """Choose strokes for a stretch of a slope.
 
@@ -185,15 +125,15 @@ def choose_places(
     rule : for gaps
     first, last : strokes at the ends of the stretch, calm ones, which stay; -1 for an end of the
         slope
-    offset : gaps from an end of the slope to the stroke beside it
-    stretch : by how much gaps are wider than the rule asks for
-    stiffness : as for the ladder
+    wanted : what is asked for besides
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
+    allowed : (n,) angle at each rung that neighbours may turn
+    upright : (n,) direction of the normal of the top at each rung; NaN near corners
 
     Returns
     -------
     (k, 2) station, and turn from the direction there, of the strokes between; empty if there is no
-        sequence that advances on both edges. O(n) for n rungs, each with some 5000 steps.
+        sequence that advances on both edges. O(n) for n rungs.
     """
     rungs, lap = ladder.rungs, ladder.rungs.shape[0] - 1
     low = strokes.pivot[first, 0] if first >= 0 else 0.0
@@ -202,36 +142,48 @@ def choose_places(
         high += periods[2]
     # 1. The rungs between, and a place for each fixed stroke.
     k = 0
-    while at_rung(rungs, k, periods) <= low:
+    while station_at(rungs, k, periods)[2] <= low:
         k += 1
     n = 0
-    while at_rung(rungs, k + n, periods) < high:
+    while station_at(rungs, k + n, periods)[2] < high:
         n += 1
+    n = (n + COARSE - 1) // COARSE
     before, after = (1 if first >= 0 else 0), (1 if last >= 0 else 0)
     found = np.zeros((before + n + after, 2))
     for i in range(n):
-        found[before + i, 0] = k + i
-    # 2. Places and directions; then finer directions on these places.
-    half, step = FAN, STEP
-    for _ in range(LEVELS):
-        found = cheapest_way(
-            ladder, strokes, rule, found, half, step, (first, last), offset, stretch, stiffness,
-            periods,
-        )  # fmt: skip
-        if found.shape[0] < before + after + 1:
+        found[before + i, 0] = k + COARSE * i
+    # 2. Places and directions; then finer ones around these.
+    half, step, apart = FAN, STEP, COARSE / 2.0
+    for level in range(LEVELS + 1):
+        fans = open_fans(
+            ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
+        )
+        most, total = np.inf, rungs[lap, TAU]
+        if level == 0:
+            some = middle_of_fans(fans, LIKELY)
+            way, most = cheapest_way(some, (before, after), wanted, total, periods, most)
+            most *= 1.0 + EQUAL
+        way, _ = cheapest_way(fans, (before, after), wanted, total, periods, most)
+        k = way.shape[0] - before - after
+        if k < 1:
             return np.empty((0, 2))
-        half, step = NARROW, step * NARROWER
-    chosen = np.empty((found.shape[0] - before - after, 2))
+        chosen = np.empty((k, 2))
+        for i in range(k):
+            at, c = way[before + i] // (2 * half + 1), way[before + i] % (2 * half + 1)
+            chosen[i, 0], chosen[i, 1] = found[at, 0], fans.turn[at, c]
+        if level == LEVELS:
+            break
+        m = len(FINER)
+        found = np.zeros((before + k * m + after, 2))
+        n = before
+        for i in range(k):
+            for share in FINER:
+                place = chosen[i, 0] + share * apart
+                if low < station_at(rungs, max(place, 0.0), periods)[2] < high:
+                    found[n, 0], found[n, 1] = place, chosen[i, 1]
+                    n += 1
+        found = found[: n + after]
+        half, step, apart = NARROW, step * NARROWER, apart / 2.0
     for i in range(chosen.shape[0]):
-        chosen[i, 0] = at_rung(rungs, int(found[before + i, 0]), periods)
-        chosen[i, 1] = found[before + i, 1]
+        chosen[i, 0] = station_at(rungs, chosen[i, 0], periods)[2]
     return chosen
-
-
-@njit(borrows=True)
-def at_rung(rungs: Floats, k: int, periods: Floats) -> float:
-    """Station of a rung, on a closed slope counted on after the last one; infinite past an end."""
-    lap = rungs.shape[0] - 1
-    if periods[2] > 0.0:
-        return rungs[k % lap, TAU] + (k // lap) * periods[2]
-    return rungs[k, TAU] if k <= lap else np.inf
