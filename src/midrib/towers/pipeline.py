@@ -102,6 +102,7 @@ class Shell(NamedTuple):
     fit: Fit
     shape: Shape
     dents: "Floats"  # heights (k, 2) of bands with a dent, of the frame
+    unit: float  # coordinate units in a metre
 
 
 def untracked(chunks: "Iterable[Floats]", _: str) -> "Iterable[Floats]":
@@ -245,4 +246,4 @@ def gated(cells: Cells, fit: Fit, unit: float) -> Shell:
     if shape.name == "oval":
         fit = fit_cells(cells, unit, is_oval=True)
     low = cells.grid.start + dents * bands.height
-    return Shell(cells, fit, shape, np.column_stack([low, low + bands.height]))
+    return Shell(cells, fit, shape, np.column_stack([low, low + bands.height]), unit)
