@@ -74,7 +74,7 @@ def runs_of(case: Case, seed: int) -> list[Outcome]:
     for mode in MODES:
         began = time.process_time()
         try:
-            levels = levels_in(mode, shell, cloud, options)
+            levels = levels_in(mode, shell, options)
         except MidribError as error:
             found.append(refused(case, seed, mode, str(error)))
             continue
@@ -83,12 +83,12 @@ def runs_of(case: Case, seed: int) -> list[Outcome]:
     return [*found, rival(case, seed, scan, points)]
 
 
-def levels_in(mode: str, shell: Shell, cloud: ArrayCloud, options: Options) -> Any:
+def levels_in(mode: str, shell: Shell, options: Options) -> Any:
     """Levels of one mode."""
     if mode == "fan":
         return levels_of(shell, options, fan(shell, options)[0])
     if mode == "paper":
-        return levels_of(shell, options, paper(shell, cloud, options, untracked)[0])
+        return levels_of(shell, options, paper(shell, options, untracked)[0])
     return levels_of(shell, options)
 
 

@@ -69,9 +69,8 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     oval = np.hypot(*fit.oval(s).T)
     is_told = shell.shape.name in {"round", "oval"}
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
-    outer = (
-        (FLOOR * unit) ** 2 + options.registration**2 + (1e-3 * options.levelling * (z - z[0])) ** 2
-    )
+    outer = (FLOOR * unit) ** 2 + registration_of(shell, options) ** 2
+    outer = outer + (1e-3 * options.levelling * (z - z[0])) ** 2
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     flags = flags_of(shell, s, seen, levels, why, is_uncertain(levels, sigma, unit))
@@ -161,6 +160,19 @@ def flags_of(
     mark(in_dent, "dented, or partly hidden")
     mark(levels["residual"] > ROUGH * usual, "rough")
     return flags
+
+
+def registration_of(shell: "Shell", options: "Options") -> float:
+    """Find the centre's standard deviation by registration: as told, or as stations show.
+
+    Stations that were put together share what is left of their shifts: that of the mean.
+    """
+    if not shell.stations:
+        return options.registration
+    shifts = np.array([(station.x, station.y) for station in shell.stations])
+    n = len(shifts)
+    shown = float(np.sqrt((shifts**2).sum() / 2.0 / (n - 1)))
+    return max(shown, options.registration) / float(np.sqrt(n))
 
 
 def is_uncertain(levels: Any, inner: "Floats", unit: float) -> "Bools":
