@@ -154,13 +154,13 @@ def fitted(design: "Floats", known: "Floats", n: int, unit: float) -> "tuple[Flo
     weight = np.ones(known.size)
     residual, answer = known, np.zeros(2 * n)
     centred = np.kron(np.eye(n) - 1.0 / n, np.eye(2))
-    inverse: Floats = np.zeros((2 * n, 2 * n))
+    inverse = np.zeros((2 * n, 2 * n))
     for _ in range(ROUNDS if known.size else 0):
         free = max(float(weight.sum()) - 2.0 * n, 1.0)
         noise = float((weight * residual**2).sum()) / free + (1e-6 * unit) ** 2
         told = (design * weight[:, None]).T @ design / noise
-        inverse = np.linalg.inv(told + np.eye(2 * n) / (USUAL * unit) ** 2)
-        answer = inverse @ (design.T @ (weight * known)) / noise
+        inverse = np.asarray(np.linalg.inv(told + np.eye(2 * n) / (USUAL * unit) ** 2))
+        answer = np.asarray(inverse @ (design.T @ (weight * known)) / noise)
         residual = known - design @ answer
         weight = tukey(residual, every, unit)
     variance = np.diag(centred @ inverse @ centred).reshape(n, 2)
