@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.sparse import csr_array
 
+from midrib.towers.blocks import factor_of, product
 from midrib.towers.cells import Cells, Grid, Reference
 from midrib.towers.joint import fit_cells, lost_to_weights
 from midrib.towers.rough import Frame
-from midrib.towers.scatter import reach_of
+from midrib.towers.scatter import long_wave_variance, reach_of
 from midrib.types import Floats
 
 LEVELS, SECTORS, RISE, RADIUS = 200, 72, 0.5, 3.0
@@ -47,6 +49,21 @@ def test_sigma_counts_cells_that_err_together_once(high: int, wide: int) -> None
     # What bends the likeliest stiffness leaves comes on top.
     assert 0.8 * line < np.median(sigmas) < 1.6 * line
     assert np.mean(offs) == pytest.approx(np.mean(sigmas), rel=0.5)
+
+
+@pytest.mark.parametrize(("high", "wide"), [(1, 1), (6, 5)])
+def test_long_wave_variance_is_that_of_white_errors_times_the_area(high: int, wide: int) -> None:
+    found = []
+    for seed in range(12):
+        cells = cells_with(patches(np.random.default_rng(seed), high, wide))
+        design = csr_array(np.column_stack([np.cos(cells.azimuth), np.sin(cells.azimuth)]))
+        weight = np.ones(cells.d.size)
+        normal = product(design, weight, design)
+        factor = factor_of(normal)
+        residual = cells.d - design @ factor.solve(design.T @ cells.d)
+        found.append(long_wave_variance(cells, design, normal, factor, weight, residual, 1.0))
+    # Blocks of four reaches would have a sixth less without what reaches over their edges.
+    assert np.mean(found) == pytest.approx(1e-6 * high * wide, rel=0.1)
 
 
 def test_reach_is_that_of_the_errors() -> None:
