@@ -25,8 +25,9 @@ def level_covariance(tower: Tower, s: Floats) -> Floats:
     angle = np.linspace(-np.pi, np.pi, 20_001)
     around = np.exp(-((radius * angle) ** 2) / 2.0 / reach**2) * np.cos(angle)
     variance = (1e3 * tower.form_error) ** 2 / np.pi * np.trapezoid(around, angle)
-    found: Floats = variance * np.exp(-((s[:, None] - s) ** 2) / 2.0 / reach**2)
-    return found + 1e-4 * variance * np.eye(s.size)
+    correlation = np.exp(-((s[:, None] - s) ** 2) / 2.0 / reach**2)
+    found: Floats = variance * (correlation + 1e-4 * np.eye(s.size))
+    return found
 
 
 def bound(design: Floats, covariance: Floats) -> float:

@@ -55,8 +55,9 @@ def test_levels_that_may_be_far_off_are_flagged() -> None:
     uncertain = np.char.startswith(axis.levels["flag"], "uncertain by")
     assert uncertain[axis.is_answered].mean() > 0.5
     assert np.nanmax(offsets(axis, scan)[axis.levels["flag"] == ""], initial=0.0) < 5e-3
-    # A smooth wall has none of these flags.
-    assert not np.char.startswith(tower_axis(dirty().points()).levels["flag"], "uncertain").any()
+    # A smooth wall that is seen all round has no flags but where a platform hides it.
+    flags = tower_axis(dirty().points()).levels["flag"]
+    assert set(flags) <= {"", "no data"}
 
 
 def test_registration_and_levelling_are_added_to_the_uncertainty() -> None:

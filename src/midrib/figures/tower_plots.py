@@ -76,7 +76,8 @@ def plot_deviation(
 
 def exaggeration(axes: "Axes") -> float:
     """How many times longer a length is drawn across, in millimetres, than up, in metres."""
-    width, height = axes.get_position().size * axes.figure.get_size_inches()
+    box = axes.bbox
+    width, height = box.width, box.height
     across, up = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
     return float(width / across * 1e3 / (height / up))
 
