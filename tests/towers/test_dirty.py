@@ -153,6 +153,11 @@ def test_options_that_cannot_be_are_refused(options: dict[str, Any], sentence: s
     assert str(caught.value) == sentence
 
 
+def test_millimetres_taken_for_metres_are_refused_with_a_hint() -> None:
+    with pytest.raises(ParameterError, match=r"no tower was found.*--unit mm"):
+        tower_axis(1e3 * Scan(count=20_000).points())
+
+
 def test_few_points_are_refused() -> None:
     with pytest.raises(ParameterError, match="source has 7 points, expected at least 100"):
         tower_axis(CONE.points()[:7])

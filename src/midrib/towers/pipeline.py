@@ -40,6 +40,7 @@ BETTER = 0.6  # times as far off points are if the tower has faces
 MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
+HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
 
@@ -204,6 +205,8 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
     if polygon and circular:
         found = polygon if polygon.off < BETTER * circular.off else circular
     if found is None:
+        if np.ptp(sample[:, 2]) / options.unit > HIGHEST:
+            why += "; heights differ by more than a kilometre: unit= (--unit mm) may be missing"
         raise ParameterError(why)
     usual = float(np.median(found.table[:, 3]))
     if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
