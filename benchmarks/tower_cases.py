@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from midrib.towers.simulate import Scan, Tower
 
-__all__ = ["CASES", "Case", "circle_fits"]
+__all__ = ["CASES", "PATCHES", "Case", "circle_fits"]
 
 Floats = NDArray[np.float64]
-COUNT = 600_000
-HALF_SLAB, TRIES, NEAR, LEAST = 0.05, 200, 0.04, 12  # of the rival: metres, triples, metres, points
+COUNT = 300_000
+HALF_SLAB, TRIES, NEAR, LEAST = 0.05, 100, 0.04, 12  # of the rival: metres, triples, metres, points
 TUKEY, ROUNDS = 4.685, 8
 
 
@@ -24,6 +24,7 @@ class Case(NamedTuple):
     make: Callable[[int], Scan]
     goal: float  # mm RMS; 0 if the goal is to refuse or to flag
     shape: str  # what the sections should be recognised as
+    tells_stations: bool = False
 
 
 def dirty(seed: int, tower: Tower, **changes: object) -> Scan:
@@ -43,6 +44,7 @@ def dirty(seed: int, tower: Tower, **changes: object) -> Scan:
 
 LEANING = Tower(lean=0.16, lean_azimuth=40.0, bend=0.03)
 ROUGH = replace(LEANING, form_error=0.005)
+PATCHES = replace(ROUGH, form_length=1.0)
 KINKED = replace(ROUGH, kink=1.0)
 SQUARE = replace(LEANING, faces=4, twist=20.0)
 HALF = {"azimuths": (0.0, 70.0, 140.0), "arc": (-20.0, 160.0)}
@@ -58,7 +60,7 @@ CASES = (
     Case("form error, kinks", lambda seed: dirty(seed, KINKED), 0.4, "round"),
     Case(
         "form error in patches of 1 m",
-        lambda seed: dirty(seed, replace(ROUGH, form_length=1.0)),
+        lambda seed: dirty(seed, PATCHES),
         0.4,
         "round",
     ),
@@ -83,6 +85,13 @@ CASES = (
         lambda seed: dirty(seed, LEANING, registration=0.002),
         0.0,
         "round",
+    ),
+    Case(
+        "the same, points say from which station",
+        lambda seed: dirty(seed, LEANING, registration=0.002),
+        0.0,
+        "round",
+        tells_stations=True,
     ),
 )
 

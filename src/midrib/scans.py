@@ -32,6 +32,7 @@ def tower_axis(
     levelling: float = 0.0,
     planes: int = 18,
     thinning: "Thinning" = "moving-least-squares",
+    stations: "ArrayLike | None" = None,
     track: "Callable[[Iterable[Floats], str], Iterable[Floats]] | None" = None,
 ) -> TowerAxis:
     """Axis of a tower or chimney in a laser scan: centre, radius and uncertainty by levels.
@@ -69,6 +70,10 @@ def tower_axis(
         Planes of the fan, 3 to 36.
     thinning : {"moving-least-squares", "average-depth"}, default "moving-least-squares"
         How walls become curves, for "paper".
+    stations : array_like of int, shape (n,), optional
+        Of an array: which points are from which station. Files have it in their own fields: point
+        source (LAS), scan (E57), a property or column ``station`` (PLY, text with a heading).
+        Stations that overlap are put together before anything is fitted.
     track : function of (iterable, str), optional
         Wraps the chunks of each reading to show progress.
 
@@ -88,8 +93,8 @@ def tower_axis(
 
     Notes
     -----
-    1. A rough axis from a sample of 200,000 points. 2. The cloud is read in chunks, twice or three
-    times, and counted in a cube of level, sector and distance from the shell. 3. Of each cell the
+    1. A rough axis from a sample of 200,000 points. 2. The cloud is read in chunks, once or twice,
+    and counted in a cube of level, sector and distance from the shell. 3. Of each cell the
     densest window, its median, and the mean near that. 4. Harmonics of the residuals tell circles
     from ovals and from what is neither. 5. The mode. O(n) time for n points, memory that does not
     depend on n. Sections are perpendicular to the axis.
@@ -109,7 +114,7 @@ def tower_axis(
     >>> axis.shape.text, round(axis.summary.slope, 1)
     ('round', 2.5)
     """
-    cloud = open_cloud(source) if isinstance(source, str | Path) else ArrayCloud(source)
+    cloud = open_cloud(source) if isinstance(source, str | Path) else ArrayCloud(source, stations)
     if unit is None:
         unit = 1.0 if cloud.metres is None else 1.0 / cloud.metres
     options: dict[str, Any] = {"mode": mode, "shape": shape, "step": step, "unit": unit}

@@ -70,7 +70,16 @@ def plot_deviation(
     widest = max(abs(reach[0]), abs(reach[1]), 1.0)
     axes.set_xlim(-widest, widest)
     compass = {"x": "x (east)", "y": "y (north)"}[name]
-    finish(axes, f"deviation in {compass}, mm", "height, m")
+    times = exaggeration(axes)
+    finish(axes, f"deviation in {compass}, mm, {times:.0f} times exaggerated", "height, m")
+
+
+def exaggeration(axes: "Axes") -> float:
+    """How many times longer a length is drawn across, in millimetres, than up, in metres."""
+    box = axes.bbox
+    width, height = box.width, box.height
+    across, up = np.ptp(axes.get_xlim()), np.ptp(axes.get_ylim())
+    return float(width / across * 1e3 / (height / up))
 
 
 def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") -> None:

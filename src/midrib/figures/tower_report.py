@@ -36,6 +36,7 @@ MARGIN, HEADING, ROW, ROWS = 15.0, 9.0, 4.2, 60  # millimetres; number of rows o
 COLUMNS = (13.0, 23.0, 24.0, 15.0, 13.0, 14.0, 13.0, 10.0, 14.0, 13.0, 9.0)  # millimetres
 LINE = 105  # characters of a line of the summary on paper
 MOST_LINES = 3  # of an entry of the summary on paper
+DOUBTFUL = 6.0  # mm: stations registered as usual make a round tower as oval as that
 FLAGGED, FLAGGED_ROW = "#a3201d", '<tr class="flagged">'
 TITLES = (
     "Axis: deviation from the vertical through the base",
@@ -150,6 +151,7 @@ def summary_lines(
         ("cloud", source),
         ("points on the shell", f"{axis.count:,}"),
         ("sections", axis.shape.text + (f"; {axis.shape.problem}" if axis.shape.problem else "")),
+        ("stations", stations_text(axis)),
         ("mode", axis.mode),
         ("levels", f"{len(axis.levels)}, {flagged} flagged, {missing} of these without a centre"),
         ("heights", f"{s.low * m:.2f} m to {s.high * m:.2f} m"),
@@ -173,6 +175,24 @@ def summary_lines(
     if tolerance is not None:
         lines.append(("tolerance", exceeding(axis, tolerance)))
     return [(name, text) for name, text in lines if text]
+
+
+def stations_text(axis: "TowerAxis") -> str:
+    """Say how stations were put together, or that a small oval may be theirs."""
+    mm = 1e3 / axis.unit
+    if axis.stations:
+        parts = [
+            f"{station.label}: {np.hypot(station.x, station.y) * mm:.1f} mm"
+            for station in axis.stations
+        ]
+        return f"put together where they overlap; off their mean by {', '.join(parts)}"
+    amplitude = axis.shape.harmonics.get(2, (0.0, 0.0))[0] * mm
+    if axis.shape.name == "oval" and amplitude < DOUBTFUL:
+        return (
+            f"not told apart: that sections are oval by {amplitude:.1f} mm "
+            "may be their registration"
+        )
+    return ""
 
 
 def exceeding(axis: "TowerAxis", tolerance: "Tolerance") -> str:

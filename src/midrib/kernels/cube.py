@@ -16,7 +16,7 @@ level, sector, bin    of s, of the azimuth of q, of d
 import numpy as np
 
 from midrib.kernels.jit import njit
-from midrib.types import Floats
+from midrib.types import Floats, Singles
 
 __all__ = ["MOMENTS", "count_points"]
 
@@ -32,8 +32,8 @@ def count_points(
     table: Floats,
     faces: Floats,
     grid: Floats,
-    counts: Floats,
-    sums: Floats,
+    counts: Singles,
+    sums: Singles,
     moments: Floats,
 ) -> int:
     """Add a chunk of points to the cube.

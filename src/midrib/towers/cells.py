@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Cells", "Grid", "Reference", "cells_of", "grid_for", "reference_of"]
+__all__ = ["Cells", "Cube", "Grid", "Reference", "cells_of", "grid_for", "reference_of"]
 
 STEP = 0.1  # metres between the rows of a reference table
 LEVEL, SECTORS = 0.5, 72  # metres, number
@@ -140,6 +140,70 @@ def scale_of(rough_radius: float, unit: float) -> float:
     return unit * float(np.clip(rough_radius / unit / THIN, 0.25, 1.0))
 
 
+class Cube:
+    """Counts of points by level, sector and distance from a shell."""
+
+    def __init__(self, reference: Reference, grid: Grid, unit: float, *, fine: bool) -> None:
+        factor = scale_of(float(np.median(reference.table[:, 2])), unit)
+        reach, self.width = (factor * value for value in (FINE if fine else COARSE))
+        n_bins = round(2.0 * reach / self.width) + 1  # odd: the shell is in the middle of a bin
+        self.low = -0.5 * n_bins * self.width
+        self.window = max(1, round(WINDOW * factor / self.width))
+        self.reference, self.grid = reference, grid
+        shape = (grid.n_levels, grid.n_sectors)
+        # Half the memory of doubles: the cube is what takes room. Counts are exact up to 2^24.
+        self.counts: Any = np.zeros((*shape, n_bins), dtype=np.float32)
+        self.sums: Any = np.zeros_like(self.counts)
+        self.moments = np.zeros((*shape, MOMENTS))
+
+    def add(self, points: "Floats") -> None:
+        """Count points (n, 3)."""
+        reference, grid = self.reference, self.grid
+        numbers = [reference.start, reference.step, grid.start, grid.level, self.low, self.width]
+        count_points(
+            np.ascontiguousarray(points, dtype=np.float64),
+            reference.frame.origin,
+            reference.frame.turn,
+            np.ascontiguousarray(reference.table),
+            np.ascontiguousarray(reference.faces).reshape(-1, 2),
+            np.array(numbers),
+            self.counts,
+            self.sums,
+            self.moments,
+        )
+
+    def cells(self) -> Cells:
+        """One distance for each cell that has enough points."""
+        level, sector = np.nonzero(self.counts.sum(axis=2) >= self.grid.enough)
+        # A few rows at a time: copies of the whole cube in doubles would take most of the memory.
+        parts = [(np.zeros(0),) * 3]
+        for k in range(0, level.size, ROWS):
+            rows = level[k : k + ROWS], sector[k : k + ROWS]
+            parts.append(self.distances(self.counts[rows], self.sums[rows]))
+        d, total, spread = (np.concatenate(column) for column in zip(*parts, strict=True))
+        m = self.moments[level, sector]
+        azimuth = sector * 2.0 * np.pi / self.grid.n_sectors + m[:, 0] / m[:, 2]
+        height = m[:, 1] / m[:, 2]
+        cells = Cells(level, sector, height, azimuth, d, total, spread, self.reference, self.grid)
+        return cells.where(total >= self.grid.enough)
+
+    def distances(self, counts: "Floats", sums: "Floats") -> "tuple[Floats, Floats, Floats]":
+        """Distance, number of points and spread of each row of bins."""
+        low, width = self.low, self.width
+        counts, sums = counts.astype(np.float64), sums.astype(np.float64)
+        first = densest(counts, self.window)
+        columns = np.arange(counts.shape[1])
+        inside = (columns >= first[:, None]) & (columns < first[:, None] + self.window)
+        median, spread = middle_of(np.where(inside, counts, 0.0), low, width)
+        near = np.abs(low + (columns + 0.5) * width - median[:, None])
+        keep = near <= np.maximum(SKIPPED * spread, 1.5 * width)[:, None]
+        kept = np.where(keep, counts, 0.0)
+        total = kept.sum(axis=1)
+        bin_middle = low + (columns + 0.5) * width
+        d = (kept @ bin_middle + np.where(keep, sums, 0.0).sum(axis=1)) / np.maximum(total, 1.0)
+        return d, total, spread
+
+
 def cells_of(
     chunks: "Iterable[Floats]", reference: Reference, grid: Grid, unit: float, *, fine: bool
 ) -> Cells:
@@ -150,79 +214,17 @@ def cells_of(
     ParameterError
         If no cell has enough points.
     """
-    factor = scale_of(float(np.median(reference.table[:, 2])), unit)
-    reach, width = (factor * value for value in (FINE if fine else COARSE))
-    n_bins = round(2.0 * reach / width) + 1  # an odd number: the shell is in the middle of a bin
-    shape = (grid.n_levels, grid.n_sectors)
-    # Half the memory of doubles: the cube is what takes room. Counts are exact up to 2^24.
-    counts: Any = np.zeros((*shape, n_bins), dtype=np.float32)
-    sums: Any = np.zeros_like(counts)
-    moments = np.zeros((*shape, MOMENTS))
-    low = -0.5 * n_bins * width
-    numbers = [reference.start, reference.step, grid.start, grid.level, low, width]
-    table, faces = np.ascontiguousarray(reference.table), np.ascontiguousarray(reference.faces)
-    frame = reference.frame
+    cube = Cube(reference, grid, unit, fine=fine)
     for chunk in chunks:
-        count_points(
-            np.ascontiguousarray(chunk, dtype=np.float64),
-            frame.origin,
-            frame.turn,
-            table,
-            faces.reshape(-1, 2),
-            np.array(numbers),
-            counts,
-            sums,
-            moments,
-        )
-    window = max(1, round(WINDOW * factor / width))
-    return thinned(counts, sums, moments, reference, grid, (low, width, window))
-
-
-def thinned(
-    counts: "Floats",
-    sums: "Floats",
-    moments: "Floats",
-    reference: Reference,
-    grid: Grid,
-    bins: tuple[float, float, int],
-) -> Cells:
-    """One distance for each cell of a cube."""
-    level, sector = np.nonzero(counts.sum(axis=2) >= grid.enough)
-    if not level.size:
+        cube.add(chunk)
+    cells = cube.cells()
+    if not cells.level.size:
         msg = (
             f"no tower was found: no part of the best shell has {grid.enough} points; near= and "
             "radius= say where it is and how thick"
         )
         raise ParameterError(msg)
-    # A few rows at a time: copies of the whole cube in doubles would take most of the memory.
-    parts = []
-    for k in range(0, level.size, ROWS):
-        rows = level[k : k + ROWS], sector[k : k + ROWS]
-        parts.append(distances(counts[rows], sums[rows], bins))
-    d, total, spread = (np.concatenate(column) for column in zip(*parts, strict=True))
-    m = moments[level, sector]
-    azimuth = sector * 2.0 * np.pi / grid.n_sectors + m[:, 0] / m[:, 2]
-    cells = Cells(level, sector, m[:, 1] / m[:, 2], azimuth, d, total, spread, reference, grid)
-    return cells.where(total >= grid.enough)
-
-
-def distances(
-    counts: "Floats", sums: "Floats", bins: tuple[float, float, int]
-) -> "tuple[Floats, Floats, Floats]":
-    """Distance, number of points and spread of each row of bins."""
-    low, width, window = bins
-    counts, sums = counts.astype(np.float64), sums.astype(np.float64)
-    first = densest(counts, window)
-    columns = np.arange(counts.shape[1])
-    inside = (columns >= first[:, None]) & (columns < first[:, None] + window)
-    median, spread = middle_of(np.where(inside, counts, 0.0), low, width)
-    near = np.abs(low + (columns + 0.5) * width - median[:, None])
-    keep = near <= np.maximum(SKIPPED * spread, 1.5 * width)[:, None]
-    kept = np.where(keep, counts, 0.0)
-    total = kept.sum(axis=1)
-    bin_middle = low + (columns + 0.5) * width
-    d = (kept @ bin_middle + np.where(keep, sums, 0.0).sum(axis=1)) / np.maximum(total, 1.0)
-    return d, total, spread
+    return cells
 
 
 def densest(counts: "Floats", window: int) -> "Ints":

@@ -8,13 +8,14 @@ from midrib.checks import shown
 from midrib.errors import GeometryTypeError, ParameterError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from midrib.types import Floats
 
-__all__ = ["CHUNK", "ArrayCloud", "Cloud", "sample_of"]
+__all__ = ["CHUNK", "ArrayCloud", "Cloud", "InOrder", "sample_of", "spots_in"]
 
 CHUNK = 500_000  # points
+PIECE = 100  # points read at one place for a sample, where places are free to choose
 LEAST = 100  # points of a cloud that can tell an axis
 
 
@@ -37,8 +38,47 @@ class Cloud(Protocol):
     def name(self) -> str:
         """What to call it in messages."""
 
-    def chunks(self) -> "Iterator[Floats]":
-        """Points (n, 3), a chunk at a time; every call begins anew."""
+    @property
+    def has_stations(self) -> bool:
+        """Whether it says which points are from which station."""
+
+    def chunks(self, *, with_stations: bool = False) -> "Iterator[Floats]":
+        """Points (n, 3), or (n, 4) with the number of the station, a chunk at a time.
+
+        Every call begins anew.
+        """
+
+    def some(self, most: int, /) -> "Iterator[Floats]":
+        """Points from all over the cloud, not many fewer than ``most``; as wide as it can."""
+
+
+class InOrder:
+    """What a cloud that can only be read from its beginning does."""
+
+    has_stations: bool = False
+
+    def chunks(self, *, with_stations: bool = False) -> "Iterator[Floats]":
+        """Points, a chunk at a time."""
+        raise NotImplementedError
+
+    def some(self, _: int) -> "Iterator[Floats]":
+        """All points: a sample as wide as it can be."""
+        return self.chunks(with_stations=self.has_stations)
+
+
+def spots_in(count: int, most: int, piece: int = PIECE) -> "list[tuple[int, int]]":
+    """Where pieces (first, number) of a sample begin, evenly over so many points.
+
+    Scanners write column by column: points at even steps may lie on one line, so each piece is
+    somewhere at random in its part.
+    """
+    parts = max(1, most // piece)
+    if count <= max(most, parts * piece):
+        return [(0, count)]
+    starts = np.linspace(0, count, parts + 1)[:-1]
+    room = count / parts - piece
+    random = np.random.default_rng(0).uniform(0.0, max(room, 0.0), parts)
+    return [(int(start), min(piece, count - int(start))) for start in starts + random]
 
 
 class ArrayCloud:
@@ -47,18 +87,20 @@ class ArrayCloud:
     Parameters
     ----------
     points : array_like, shape (n, 3)
+    stations : array_like of int, shape (n,), optional
+        Which points are from which station.
 
     Raises
     ------
     GeometryTypeError
-        If the points are no table of three columns of numbers.
+        If the points are no table of three columns of numbers, or stations no column beside it.
     """
 
     metres: float | None = None
     crs: str | None = None
     name = "source"
 
-    def __init__(self, points: object) -> None:
+    def __init__(self, points: object, stations: object = None) -> None:
         try:
             table = np.asarray(points, dtype=np.float64)
         except (TypeError, ValueError) as error:
@@ -68,20 +110,44 @@ class ArrayCloud:
             msg = f"source has the shape {table.shape}, expected (n, 3): x, y, z"
             raise GeometryTypeError(msg)
         self.points = table
+        self.stations = None if stations is None else np.asarray(stations)
+        if self.stations is not None and (
+            self.stations.shape != (len(table),) or self.stations.dtype.kind not in "iu"
+        ):
+            found = f"the shape {self.stations.shape} and the type {self.stations.dtype}"
+            msg = f"stations has {found}, expected whole numbers ({len(table)},)"
+            raise GeometryTypeError(msg)
+
+    @property
+    def has_stations(self) -> bool:
+        """Whether it says which points are from which station."""
+        return self.stations is not None
 
     @property
     def count(self) -> int:
         """Number of points."""
         return len(self.points)
 
-    def chunks(self) -> "Iterator[Floats]":
-        """Points (n, 3), a chunk at a time."""
+    def chunks(self, *, with_stations: bool = False) -> "Iterator[Floats]":
+        """Points (n, 3), or (n, 4) with stations, a chunk at a time."""
         for first in range(0, len(self.points), CHUNK):
-            yield self.points[first : first + CHUNK]
+            yield self.piece(first, CHUNK, with_stations=with_stations)
+
+    def some(self, most: int) -> "Iterator[Floats]":
+        """Points from all over the cloud."""
+        for first, count in spots_in(self.count, most):
+            yield self.piece(first, count, with_stations=self.has_stations)
+
+    def piece(self, first: int, count: int, *, with_stations: bool) -> "Floats":
+        """Read some points."""
+        rows = slice(first, first + count)
+        if self.stations is None or not with_stations:
+            return self.points[rows]
+        return np.column_stack([self.points[rows], self.stations[rows]])
 
 
-def sample_of(cloud: Cloud, most: int) -> "Floats":
-    """Points (at most about ``most``, 3) spread over the whole cloud.
+def sample_of(chunks: "Iterable[Floats]", most: int, name: str) -> "tuple[Floats, int]":
+    """Points (at most about twice ``most``, 3 or 4) of all chunks, finite ones; how many came.
 
     Raises
     ------
@@ -89,19 +155,19 @@ def sample_of(cloud: Cloud, most: int) -> "Floats":
         If there are too few points.
     """
     kept: list[Floats] = []
-    total, stride = 0, 1 if cloud.count is None else max(1, cloud.count // most)
-    random = np.random.default_rng(0)  # scanners write column by column: every n-th point may
-    for chunk in cloud.chunks():  # lie on one line, random ones do not
-        chosen = chunk
-        if stride > 1:
-            chosen = chunk[random.random(len(chunk)) < 1.0 / stride]
+    came, total, share = 0, 0, 1.0
+    random = np.random.default_rng(0)
+    for chunk in chunks:
+        came += len(chunk)
+        chosen = chunk if share == 1.0 else chunk[random.random(len(chunk)) < share]
         kept.append(chosen[np.isfinite(chosen).all(axis=1)])
         total += len(kept[-1])
-        if cloud.count is None and total > 2 * most:
-            kept = [np.concatenate(kept)[::2]]
-            total, stride = len(kept[0]), 2 * stride
-    points = np.concatenate([np.zeros((0, 3)), *kept])
+        if total > 2 * most:
+            together = np.concatenate(kept)
+            kept = [together[random.random(total) < most / total]]
+            share, total = share * most / total, len(kept[0])
+    points = np.concatenate(kept) if kept else np.zeros((0, 3))
     if len(points) < LEAST:
-        msg = f"{cloud.name} has {len(points)} points, expected at least {LEAST}"
+        msg = f"{name} has {len(points)} points, expected at least {LEAST}"
         raise ParameterError(msg)
-    return points
+    return points, came

@@ -93,7 +93,7 @@ def fitted(
     ]
     seen = np.array(rows).reshape(-1, 3)
     usual = np.bincount(seen[:, 1].astype(np.intp), minlength=len(normals)) >= 0.3 * len(slabs)
-    if usual.sum() < 3:
+    if not len(seen) or usual.sum() < 3:
         return None
     z, face, offset = seen[:, 0], seen[:, 1].astype(np.intp), seen[:, 2]
     middle, half = (z.max() + z.min()) / 2.0, max(float(np.ptp(z)) / 2.0, 1e-9)

@@ -65,8 +65,13 @@ def bands_of(cells: "Cells", residual: "Floats", weight: "Floats", unit: float) 
     )
 
 
-def shape_of(bands: Bands, faces: "Floats", radius: float, unit: float) -> tuple[Shape, "Floats"]:
-    """Shape of the sections, and the numbers of bands that have a dent."""
+def shape_of(
+    bands: Bands, faces: "Floats", radius: float, unit: float, excused: float
+) -> tuple[Shape, "Floats"]:
+    """Shape of the sections, and the numbers of bands that have a dent.
+
+    Harmonics that are not above ``excused``, a length, are not the shape's.
+    """
     if len(faces):
         azimuth = float(azimuth_of(faces[0, 0], faces[0, 1]))
         name = "square" if len(faces) == SQUARE else "polygon"
@@ -79,7 +84,7 @@ def shape_of(bands: Bands, faces: "Floats", radius: float, unit: float) -> tuple
     sigma = 1.2533 * scatter / np.sqrt(len(bands.band))  # of a median
     sigma = np.hypot(sigma, bands.noise / np.sqrt(len(bands.band)))
     size = np.abs(middle)
-    counts = size > np.maximum(CERTAIN * sigma, max(LEAST * unit, LEAST_SHARE * radius))
+    counts = size > np.maximum(CERTAIN * sigma, max(LEAST * unit, LEAST_SHARE * radius, excused))
     found = {int(k): (float(a), float(s)) for k, a, s in zip(ORDERS, size, sigma, strict=True)}
     dented = (np.abs(off) > np.maximum(DENT * scatter, LEAST_DENT * unit)).any(axis=1)
     lobes = [int(k) for k in ORDERS[counts] if k > 2]

@@ -18,7 +18,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from midrib.towers.blocks import blocks_of, covariance_of, joined, product, solved
+from midrib.towers.blocks import factor_of, product
+from midrib.towers.scatter import long_wave_variance
+from midrib.towers.smoothing import best_stiffness
 from midrib.towers.splines import Basis, basis_on
 
 if TYPE_CHECKING:
@@ -33,15 +35,9 @@ LEAST_SPREAD = 3e-4
 TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
 GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
-BLOCKS = (
-    (2.5, 12),
-    (5.0, 8),
-    (10.0, 6),
-)  # metres, number around: cells of a block may err together
-AXIS_STIFFNESS = 10.0 ** np.arange(0.0, 7.1, 0.5)
-TAPER_STIFFNESS = 10.0 ** np.arange(3.0, 9.1, 1.0)
+LEAST_ERROR = 1e-6  # metres: of a cell, where there is no noise at all
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
-PLIANT = (3e1, 1e5)  # what such a fit leaves is error, not the tower's own bends
+PLIANT = (3e1, 1e5)
 
 
 class Model(NamedTuple):
@@ -58,6 +54,23 @@ class Model(NamedTuple):
         if self.oval is not None:
             sizes += [self.oval.size] * 2
         return np.cumsum(sizes)
+
+    @property
+    def bends(self) -> tuple[int, int]:
+        """Numbers of coefficients that axis stiffness and taper stiffness hold."""
+        oval = 0 if self.oval is None else 2 * (self.oval.size - 2)
+        return 2 * (self.axis.size - 2), self.taper.size - 2 + oval
+
+    @property
+    def straight(self) -> "Floats":
+        """Coefficients (unknowns, 6) of straight x, y, r: what no penalty holds."""
+        ends = self.ends
+        lines = np.zeros((ends[-1], 6))
+        starts = [0, *ends[:-1]]
+        for k, basis in enumerate((self.axis, self.axis, self.taper)):
+            rows = slice(starts[k], ends[k])
+            lines[rows, 2 * k], lines[rows, 2 * k + 1] = 1.0, basis.averages
+        return lines
 
     def penalty(self, axis: float, taper: float) -> "Floats":
         """Penalty matrix for given stiffnesses."""
@@ -145,10 +158,10 @@ def fit_cells(
 
     Notes
     -----
-    Tukey's weights against what is not the wall. Stiffnesses are chosen by generalised
-    cross-validation, in which cells that err together count once. The covariance is the jackknife
-    over blocks of cells; the penalty's share is that of Nychka (1988), which allows for what a
-    smooth curve misses. O(n) for n cells, and a few dense solutions for the unknowns.
+    Tukey's weights against what is not the wall. What cells err by together, the long-wave variance
+    τ², is told by the residuals (see ``scatter``); with it the stiffnesses are the likeliest ones,
+    and the covariance is that of the coefficients given the cells (Nychka 1988), which allows for
+    what a smooth curve misses. O(n log n) for n cells, and dense solutions for the unknowns.
     """
     low, high = float(cells.s.min()), float(cells.s.max())
     spacing = max(knots * unit, 2.0 * cells.grid.level)
@@ -158,36 +171,36 @@ def fit_cells(
         basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
     )
     design, known = design_of(cells, model)
-    blocks = [blocks_of(cells, rise * unit, around) for rise, around in BLOCKS]
+    # Straight lines are taken off first: what is left is small, and so are rounding errors.
+    lines = model.straight
+    straight = lines @ np.linalg.lstsq(design @ lines, known, rcond=None)[0]
+    known = known - design @ straight
     _, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
-    stiffness = (USUAL[0] * unit**3, USUAL[1] * unit**3)
+    variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
-    coefficients = np.zeros(design.shape[1])
     for round_ in range(ROUNDS):
+        normal, right = product(design, weight, design), design.T @ (weight * known)
+        inverse = factor_of(normal + variance * model.penalty(*stiffness))
+        bends = inverse.solve(right)
+        residual = known - design @ bends
         if round_ in CHOOSING and not rough:
-            pliant = model.penalty(PLIANT[0] * unit**3, PLIANT[1] * unit**3)
-            normal = product(design, weight, design) + pliant
-            left = known - design @ solved(normal, design.T @ (weight * known))
-            together = max(joined(weight * left, block) for block in blocks[:2])
-            # A pliant fit keeps half of its freedom: what it leaves may be its own misfit.
-            together = min(together, max(1.0, float(weight.sum()) / (2.0 * len(normal))))
-            stiffness = best_stiffness(design, known, weight, model, stiffness, together, unit**3)
-        normal = product(design, weight, design) + model.penalty(*stiffness)
-        coefficients = solved(normal, design.T @ (weight * known))
-        residual = known - design @ coefficients
+            # What a pliant curve leaves is error; a stiff one leaves the tower's own bends too.
+            pliant = factor_of(normal + model.penalty(*(unit**3 * k for k in PLIANT)))
+            left = known - design @ pliant.solve(right)
+            variance = long_wave_variance(cells, design, normal, pliant, weight, left, unit)
+            variance *= lost_to_weights(residual, weight, unit) ** 2
+            variance = max(variance, (LEAST_ERROR * unit) ** 2)
+            stiffness = best_stiffness(normal / variance, right / variance, model, unit)
         before, weight = weight, prior * tukey(residual, prior > 0.0, unit)
         if round_ > max(CHOOSING) and np.abs(weight - before).max() < 0.01:
             break
     covariance = np.zeros((0, 0))
     if not rough:
-        penalty = model.penalty(*stiffness)
-        found = [covariance_of(design, weight, residual, block, penalty) for block in blocks]
-        # Blocks that are smaller than what errs together tell too little; small and many ones are
-        # surer. The largest is on the safe side.
-        covariance = max(found, key=lambda c: float(np.trace(c[: model.ends[1], : model.ends[1]])))
-    return Fit(model, coefficients, covariance, weight, residual, stiffness)
+        told = product(design, weight, design) / variance + model.penalty(*stiffness)
+        covariance = factor_of(told).solve(np.eye(len(told)))
+    return Fit(model, straight + bends, covariance, weight, residual, stiffness)
 
 
 def grazed(cells: "Cells", unit: float) -> "Bools":
@@ -213,9 +226,22 @@ def grazed(cells: "Cells", unit: float) -> "Bools":
 
 def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
     """Weights by the size of residuals."""
-    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
-    weight: Floats = np.clip(1.0 - (residual / (TUKEY * spread)) ** 2, 0.0, 1.0) ** 2
+    weight: Floats = np.clip(1.0 - shares(residual, rows, unit) ** 2, 0.0, 1.0) ** 2
     return weight
+
+
+def lost_to_weights(residual: "Floats", weight: "Floats", unit: float) -> float:
+    """How much smaller weighted errors are than what they do to the fit: mean w over mean ψ'."""
+    rows = weight > 0.0
+    square = np.clip(shares(residual, rows, unit)[rows] ** 2, 0.0, 1.0)
+    return float(weight[rows].mean() / max(((1.0 - square) * (1.0 - 5.0 * square)).mean(), 0.1))
+
+
+def shares(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
+    """Residuals as shares of the smallest that has no weight."""
+    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
+    share: Floats = residual / (TUKEY * spread)
+    return share
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
@@ -237,30 +263,3 @@ def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
     known = cells.d + reference[:, 2]
     known = known + (normal * (reference[:, :2] + lever * reference[:, 3:5])).sum(axis=1)
     return csr_array(hstack(parts)), known
-
-
-def best_stiffness(
-    design: "Any",
-    known: "Floats",
-    weight: "Floats",
-    model: Model,
-    start: tuple[float, float],
-    together: float,
-    cube: float,
-) -> tuple[float, float]:
-    """Stiffnesses of axis and taper by generalised cross-validation, one after the other."""
-    normal = product(design, weight, design)
-    right = design.T @ (weight * known)
-    square, n = float((weight * known) @ known), float(weight.sum())
-
-    def score(axis: float, taper: float) -> float:
-        both = solved(normal + model.penalty(axis, taper), np.column_stack([right, normal]))
-        c = both[:, 0]
-        left = max(square - 2.0 * float(c @ right) + float(c @ normal @ c), 0.0) + 1e-15 * square
-        free = n - together * float(np.trace(both[:, 1:]))
-        return left / max(free, 1e-9) ** 2
-
-    axis, _ = start
-    taper = min(TAPER_STIFFNESS * cube, key=lambda t: score(axis, t))
-    axis = min(AXIS_STIFFNESS * cube, key=lambda a: score(a, taper))
-    return float(axis), float(taper)

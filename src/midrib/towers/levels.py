@@ -21,10 +21,10 @@ LEAST_SHARE = 0.3  # of the usual coverage: less, and the tower has not begun or
 SEEN = 200.0  # degrees that tell centre and radius apart
 ARC = 40.0  # degrees of a level that are not enough for a centre
 NEAR = 2.5  # metres above and below: what is seen there counts for a level
-UNCERTAIN = 0.005  # metres: largest half interval of 95 % that goes without a flag
+UNCERTAIN = 0.005  # metres: no level without a flag should be off by more
+NORMAL, CERTAIN = 1.96, 3.72  # standard deviations: 95 % of one coordinate, 99.9 % of a distance
 ROUGH, LEAST_ROUGH = 4.0, 5e-4  # times the usual residual; metres
 FLOOR = 3e-5  # metres: what thinning to cells leaves of clutter, whatever the noise
-NORMAL = 1.96
 NO_DATA = "no data"
 
 
@@ -69,12 +69,11 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     oval = np.hypot(*fit.oval(s).T)
     is_told = shell.shape.name in {"round", "oval"}
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
-    outer = (
-        (FLOOR * unit) ** 2 + options.registration**2 + (1e-3 * options.levelling * (z - z[0])) ** 2
-    )
+    outer = (FLOOR * unit) ** 2 + registration_of(shell, options) ** 2
+    outer = outer + (1e-3 * options.levelling * (z - z[0])) ** 2
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
-    flags = flags_of(shell, s, seen, levels, why, unit)
+    flags = flags_of(shell, s, seen, levels, why, is_uncertain(levels, sigma, unit))
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
     for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "ovality"):
@@ -134,11 +133,11 @@ def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
 
 
 def flags_of(
-    shell: "Shell", s: "Floats", seen: Seen, levels: Any, why: Any, unit: float
+    shell: "Shell", s: "Floats", seen: Seen, levels: Any, why: Any, uncertain: "Bools"
 ) -> "np.ndarray[Any, np.dtype[np.str_]]":
     """Flag of each level, the first reason that holds; empty where all is well."""
-    half = NORMAL * np.maximum(levels["sigma_x"], levels["sigma_y"])
-    usual = max(np.nanmedian(levels["residual"]), LEAST_ROUGH * unit)
+    half = NORMAL * 1e3 / shell.unit * np.maximum(levels["sigma_x"], levels["sigma_y"])
+    usual = max(np.nanmedian(levels["residual"]), LEAST_ROUGH * shell.unit)
     flags = np.full(s.size, "", dtype="U96")
     in_dent = np.zeros(s.size, dtype=np.bool_)
     for low, high in shell.dents:
@@ -155,12 +154,37 @@ def flags_of(
     mark(why != "", why)
     mark(np.isnan(levels["x"]), NO_DATA)
     mark(np.full(s.size, shell.shape.problem != ""), shell.shape.problem)
-    mark(half > UNCERTAIN * unit, [f"uncertain by {1e3 * h / unit:.1f} mm" for h in half])
+    mark(uncertain, [f"uncertain by {h:.1f} mm" for h in half])
     if is_round:
         mark(seen.near < SEEN, "radius from taper prior")
     mark(in_dent, "dented, or partly hidden")
     mark(levels["residual"] > ROUGH * usual, "rough")
     return flags
+
+
+def registration_of(shell: "Shell", options: "Options") -> float:
+    """Find the centre's standard deviation by registration: as told, or as stations show.
+
+    Stations that were put together share what is left of their shifts: that of the mean.
+    """
+    if not shell.stations:
+        return options.registration
+    shifts = np.array([(station.x, station.y) for station in shell.stations])
+    n = len(shifts)
+    shown = float(np.sqrt((shifts**2).sum() / 2.0 / (n - 1)))
+    return max(shown, options.registration) / float(np.sqrt(n))
+
+
+def is_uncertain(levels: Any, inner: "Floats", unit: float) -> "Bools":
+    """Which levels may be off by more than what goes without a flag.
+
+    By what the cloud tells, ``inner`` (n, 2), hardly any level may be; by registration and
+    levelling too, which move all levels alike, the 95 % interval may not.
+    """
+    whole = NORMAL * np.maximum(levels["sigma_x"], levels["sigma_y"])
+    alone = CERTAIN * inner.max(axis=1)
+    found: Bools = np.fmax(whole, alone) > UNCERTAIN * unit
+    return found
 
 
 def add_deviations(levels: Any) -> None:

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from midrib.towers.cells import Reference
-    from midrib.towers.cloud import Cloud
     from midrib.towers.pipeline import Options, Shell, Track
     from midrib.types import Floats
 
@@ -51,14 +50,12 @@ class PlaneSteps(NamedTuple):
     same_height: "Floats"
 
 
-def paper(
-    shell: "Shell", cloud: "Cloud", options: "Options", track: "Track"
-) -> "tuple[Centres, dict[str, Any]]":
+def paper(shell: "Shell", options: "Options", track: "Track") -> "tuple[Centres, dict[str, Any]]":
     """Centres of levels from two planes, and the steps: ``"planes"``, a list of two."""
     unit = options.unit
     directions = directions_of(shell.cells.reference.faces)
     half = half_slab(shell, unit)
-    walls = collected(track(cloud.chunks(), "sections"), shell, directions, half, unit)
+    walls = collected(track(shell.cloud.chunks(), "sections"), shell, directions, half, unit)
     planes = []
     for direction, points in zip(directions, walls, strict=True):
         main = thinned_wall(

@@ -1,8 +1,8 @@
 """From a cloud to the axis: sample, shape, reference, cells, gate, mode, levels.
 
-A cloud is read three times, or once more where the first fit was rough: for the sample, for coarse
-cells, and for fine cells measured from the shell that the coarse ones gave. Memory does not depend
-on the number of points.
+A sample gives coarse cells and a shell to measure from; then the cloud is read once for fine cells,
+again where that shell was off by more than matters, and once before that where stations are to be
+put together. Memory does not depend on the number of points.
 """
 
 from collections.abc import Callable, Iterable
@@ -21,6 +21,7 @@ from midrib.towers.joint import Fit, fit_cells
 from midrib.towers.levels import levels_of
 from midrib.towers.records import Shape, TowerAxis
 from midrib.towers.rough import Rough, Search, rough_round
+from midrib.towers.stations import Aligned, Station, labels_in, stations_of
 from midrib.towers.thinning import Thinning
 
 if TYPE_CHECKING:
@@ -36,9 +37,11 @@ SAMPLE = 200_000
 BEYOND = 0.02  # of the height: the tower may go on where the sample has few points
 MOST_OFF = (0.05, 0.012)  # of the radius, metres: a section whose points are farther off is another
 BETTER = 0.6  # times as far off points are if the tower has faces
-MOVED = 1e-4  # metres: fine cells are counted anew if their reference was off by more
+MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
+HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
+EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
 
 @dataclass(frozen=True)
@@ -102,6 +105,9 @@ class Shell(NamedTuple):
     fit: Fit
     shape: Shape
     dents: "Floats"  # heights (k, 2) of bands with a dent, of the frame
+    unit: float  # coordinate units in a metre
+    cloud: Cloud  # its stations put together
+    stations: list[Station]  # those that could be told apart
 
 
 def untracked(chunks: "Iterable[Floats]", _: str) -> "Iterable[Floats]":
@@ -129,7 +135,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         centres, steps = fan(shell, options)
         levels = levels_of(shell, options, centres)
     else:
-        centres, steps = paper(shell, cloud, options, track)
+        centres, steps = paper(shell, options, track)
         levels = levels_of(shell, options, centres)
     fit = shell.fit
     return TowerAxis(
@@ -140,6 +146,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         crs=cloud.crs,
         count=int(shell.cells.n.sum()),
         cells=shell.cells,
+        stations=shell.stations,
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,
@@ -149,42 +156,33 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
 def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     """Cells of the shell and the joint fit to them."""
     unit = options.unit
-    sample = sample_of(tracked(cloud, track, "sampling"), SAMPLE)
+    sample, came = sample_of(track(cloud.some(SAMPLE), "sampling"), SAMPLE, cloud.name)
+    labels, sample = labels_in(sample), np.ascontiguousarray(sample[:, :3])
     rough = shape_found(sample, options)
     heights = rough.frame.inwards(sample)[:, 2]
     low, high = np.percentile(heights, [0.2, 99.8])
     margin = BEYOND * (high - low)
     low, high = float(low - margin), float(high + margin)
-    count = float(cloud.count or len(sample))
-    reference = reference_of(rough, unit, low, high)
-    grid = grid_for(low, high, on_shell(rough, sample, unit) * count / len(sample), unit)
-    cells = cells_of(track(cloud.chunks(), "coarse cells"), reference, grid, unit, fine=False)
-    fit = fit_cells(cells, unit, rough=True)
+    reference, near = reference_of(rough, unit, low, high), on_shell(rough, sample, unit)
+    coarse = cells_of([sample], reference, grid_for(low, high, near, unit), unit, fine=False)
+    reference = refined(reference, fit_cells(coarse, unit, rough=True))
+    count = float(cloud.count or came)
+    grid = grid_for(low, high, near * count / len(sample), unit)
+    stations: list[Station] = []
+    if labels.size:
+        chunks = track(cloud.chunks(with_stations=True), "stations")
+        stations = stations_of(chunks, labels, reference, grid, unit)
+        cloud = Aligned(cloud, stations) if stations else cloud
     for _ in range(MOST_PASSES):
-        reference = refined(reference, fit)
-        cells = cells_of(track(cloud.chunks(), "fine cells"), reference, grid, unit, fine=True)
+        cells = cells_of(track(cloud.chunks(), "cells"), reference, grid, unit, fine=True)
         fit = fit_cells(cells, unit)
         used = cells.s[fit.weight > 0.0]
         moved = np.abs(fit.values(used) - reference.at(used)[:, :3]).max(initial=0.0)
         noise = float(np.median(np.abs(fit.residual)))
         if moved < max(MOVED * unit, MOVED_SHARE * noise) or cells.grid.enough < 4:
             break
-    return gated(cells, fit, unit)
-
-
-def tracked(cloud: Cloud, track: Track, doing: str) -> Cloud:
-    """Cloud whose chunks show progress."""
-
-    class Shown:
-        """A cloud that is watched."""
-
-        count, metres, crs, name = cloud.count, cloud.metres, cloud.crs, cloud.name
-
-        def chunks(self) -> Any:
-            """Points, a chunk at a time."""
-            return iter(track(cloud.chunks(), doing))
-
-    return Shown()
+        reference = refined(reference, fit)
+    return Shell(*gated(cells, fit, options, told_apart=bool(stations)), unit, cloud, stations)
 
 
 def shape_found(sample: "Floats", options: Options) -> Rough:
@@ -207,6 +205,8 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
     if polygon and circular:
         found = polygon if polygon.off < BETTER * circular.off else circular
     if found is None:
+        if np.ptp(sample[:, 2]) / options.unit > HIGHEST:
+            why += "; heights differ by more than a kilometre: unit= (--unit mm) may be missing"
         raise ParameterError(why)
     usual = float(np.median(found.table[:, 3]))
     if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
@@ -236,13 +236,17 @@ def refined(reference: Reference, fit: Fit) -> Reference:
     return reference._replace(table=np.column_stack([values, fit.slopes(s)]))
 
 
-def gated(cells: Cells, fit: Fit, unit: float) -> Shell:
+def gated(
+    cells: Cells, fit: Fit, options: Options, *, told_apart: bool
+) -> "tuple[Cells, Fit, Shape, Floats]":
     """Look at the shape of the sections; an oval is fitted anew with its own terms."""
+    unit = options.unit
     bands = bands_of(cells, fit.residual, fit.weight, unit)
-    shape, dents = shape_of(
-        bands, cells.reference.faces, float(np.median(cells.reference.table[:, 2])), unit
-    )
+    radius = float(np.median(cells.reference.table[:, 2]))
+    # Stations that do not fit together make lobes of about their own shifts.
+    excused = 0.0 if told_apart else EXCUSED * options.registration
+    shape, dents = shape_of(bands, cells.reference.faces, radius, unit, excused)
     if shape.name == "oval":
         fit = fit_cells(cells, unit, is_oval=True)
     low = cells.grid.start + dents * bands.height
-    return Shell(cells, fit, shape, np.column_stack([low, low + bands.height]))
+    return cells, fit, shape, np.column_stack([low, low + bands.height])

@@ -12,6 +12,7 @@ from midrib.towers.summary import Kink, Summary, kinks_of, summary_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
+    from midrib.towers.stations import Station
     from midrib.types import Bools, Floats
 
 __all__ = ["LEVELS", "Shape", "TowerAxis"]
@@ -64,6 +65,9 @@ class TowerAxis:
         Points of the cloud that lie near the shell.
     steps : dict
         What was made on the way, of "paper": see ``midrib.towers.paper``.
+    stations : list of Station
+        How far each station is off the mean of all, where the cloud says which points are from
+        which and they overlap enough to tell. The points were put together accordingly.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -76,6 +80,7 @@ class TowerAxis:
     residual: "Floats"  # (n,) of the cells, along the wall's normal
     used: "Bools"  # (n,) which cells counted
     steps: dict[str, Any] = field(default_factory=dict)
+    stations: "list[Station]" = field(default_factory=list)
 
     @property
     def is_answered(self) -> "Bools":

@@ -16,7 +16,7 @@ from midrib.errors import ParameterError
 from midrib.towers.tower import Tower
 
 if TYPE_CHECKING:
-    from midrib.types import Bools, Floats
+    from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Scan", "Tower"]
 
@@ -108,10 +108,16 @@ class Scan:
         """All points (n, 3) at once."""
         return np.concatenate(list(self.chunks()))
 
+    @property
+    def stations(self) -> "Ints":
+        """(n,) numbers of the stations that the points are from, from 0 on."""
+        ends = np.linspace(0, self.count, len(self.azimuths) + 1).astype(np.intp)
+        numbers: Ints = np.searchsorted(ends[1:], np.arange(self.count), side="right")
+        return numbers
+
     def chunks(self, size: int = 500_000) -> Iterator["Floats"]:
         """Points (n, 3), at most ``size`` at a time, station by station."""
-        shares = np.diff(np.linspace(0, self.count, len(self.azimuths) + 1).astype(np.intp))
-        for station, count in enumerate(shares):
+        for station, count in enumerate(np.bincount(self.stations)):
             for first in range(0, int(count), size):
                 yield self.part(station, first, min(size, int(count) - first))
 

@@ -27,6 +27,13 @@ class Basis(NamedTuple):
         """Number of coefficients."""
         return len(self.knots) - DEGREE - 1
 
+    @property
+    def averages(self) -> "Floats":
+        """Means (size,) of each B-spline's inner knots: the coefficients of the line f(s) = s."""
+        inner = [self.knots[1 + k : 1 + k + self.size] for k in range(DEGREE)]
+        means: Floats = np.mean(inner, axis=0)
+        return means
+
     def design(self, s: "Floats", derivative: int = 0) -> "Floats":
         """Values, or derivatives, of the B-splines (n, size); straight on beyond the ends."""
         from scipy.interpolate import BSpline

@@ -1,6 +1,5 @@
 """NumPy files: an array (n, 3), or the first of that shape in an archive."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -8,7 +7,7 @@ import numpy as np
 
 from midrib.errors import ParameterError
 from midrib.formats.clouds.common import refusing
-from midrib.towers.cloud import CHUNK
+from midrib.towers.cloud import ArrayCloud
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -16,14 +15,11 @@ if TYPE_CHECKING:
 __all__ = ["NumpyCloud"]
 
 
-class NumpyCloud:
+class NumpyCloud(ArrayCloud):
     """A .npy file, read where it lies, or a .npz archive, read whole."""
 
-    metres: float | None = None
-    crs: str | None = None
-
     def __init__(self, path: Path) -> None:
-        self.path, self.name = path, f"CLOUD {str(path)!r}"
+        self.name = f"CLOUD {str(path)!r}"
         with refusing(path, ValueError):
             found = np.load(path, mmap_mode="r", allow_pickle=False)
             tables = list(found.values()) if path.suffix.lower() == ".npz" else [found]
@@ -32,10 +28,10 @@ class NumpyCloud:
             shapes = ", ".join(str(table.shape) for table in tables) or "nothing"
             msg = f"{self.name} has arrays of shape {shapes}, expected numbers (n, 3): x, y, z"
             raise ParameterError(msg)
-        self.table = fitting[0]
-        self.count = len(self.table)
+        super().__init__(np.empty((0, 3)))
+        self.points = fitting[0]  # as it lies in the file: a chunk becomes doubles when it is read
 
-    def chunks(self) -> Iterator["Floats"]:
-        """Points (n, 3), a chunk at a time."""
-        for first in range(0, self.count, CHUNK):
-            yield np.asarray(self.table[first : first + CHUNK], dtype=np.float64)
+    def piece(self, first: int, count: int, *, with_stations: bool) -> "Floats":
+        """Read some points."""
+        found = super().piece(first, count, with_stations=with_stations)
+        return np.asarray(found, dtype=np.float64)

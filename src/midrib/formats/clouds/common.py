@@ -6,7 +6,10 @@ from pathlib import Path
 
 from midrib.errors import MidribError, ParameterError
 
-__all__ = ["refusing"]
+__all__ = ["STATIONS", "refusing"]
+
+# What a column that tells the station is called.
+STATIONS = ("station", "station_id", "scan", "scan_id", "scanner", "point_source_id", "source_id")
 
 
 @contextmanager

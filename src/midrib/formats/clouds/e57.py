@@ -8,7 +8,7 @@ import numpy as np
 
 from midrib.checks import check_library
 from midrib.formats.clouds.common import refusing
-from midrib.towers.cloud import CHUNK
+from midrib.towers.cloud import CHUNK, InOrder
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -19,7 +19,7 @@ FIELDS = ("cartesianX", "cartesianY", "cartesianZ")
 VALID = "cartesianInvalidState"  # 0: the coordinates mean something
 
 
-class E57Cloud:
+class E57Cloud(InOrder):
     """An E57 file; the standard (ASTM E2807) has metres."""
 
     metres: float | None = 1.0
@@ -32,11 +32,15 @@ class E57Cloud:
         self.path, self.name = path, f"CLOUD {str(path)!r}"
         with refusing(path, pye57.libe57.E57Exception, RuntimeError):
             file = pye57.E57(str(path))
+            self.has_stations = file.scan_count > 1
             self.count = sum(file.get_header(k).point_count for k in range(file.scan_count))
             file.close()
 
-    def chunks(self) -> Iterator["Floats"]:
-        """Points (n, 3), a chunk at a time; those without a return are left out."""
+    def chunks(self, *, with_stations: bool = False) -> Iterator["Floats"]:
+        """Points (n, 3), a chunk at a time; those without a return are left out.
+
+        The station of a point is the number of its scan.
+        """
         import pye57
 
         with refusing(self.path, pye57.libe57.E57Exception, RuntimeError):
@@ -53,6 +57,11 @@ class E57Cloud:
                     points = np.column_stack([values[name][:count] for name in FIELDS])
                     if VALID in fields:
                         points = points[values[VALID][:count] == 0]
-                    yield points @ turn.T + shift
+                    placed = points @ turn.T + shift
+                    yield (
+                        np.column_stack([placed, np.full(len(placed), k)])
+                        if with_stations
+                        else placed
+                    )
                 reader.close()
             file.close()

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from midrib.errors import ParameterError
-from midrib.formats.clouds.common import refusing
-from midrib.towers.cloud import CHUNK
+from midrib.formats.clouds.common import STATIONS, refusing
+from midrib.towers.cloud import CHUNK, InOrder
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -33,7 +33,7 @@ class Header(NamedTuple):
     size: int  # bytes
 
 
-class PlyCloud:
+class PlyCloud(InOrder):
     """A PLY file whose first element is its vertices."""
 
     metres: float | None = None
@@ -48,16 +48,19 @@ class PlyCloud:
         if missing:
             msg = f"{self.name} has no property {min(missing)}, expected x, y and z of vertices"
             raise ParameterError(msg)
+        self.station = next((name for name, _ in self.header.fields if name in STATIONS), "")
+        self.has_stations = self.station != ""
 
-    def chunks(self) -> Iterator["Floats"]:
-        """Points (n, 3), a chunk at a time."""
+    def chunks(self, *, with_stations: bool = False) -> Iterator["Floats"]:
+        """Points (n, 3), or (n, 4) with stations, a chunk at a time."""
+        names = [*"xyz", self.station] if with_stations else [*"xyz"]
         with refusing(self.path, ValueError), self.path.open("rb") as file:
             file.seek(self.header.size)
             for first in range(0, self.count, CHUNK):
                 count = min(CHUNK, self.count - first)
                 if self.header.form == "ascii":
                     rows = np.loadtxt(file, max_rows=count, ndmin=2)
-                    columns = [[name for name, _ in self.header.fields].index(c) for c in "xyz"]
+                    columns = [[name for name, _ in self.header.fields].index(c) for c in names]
                     points = rows[:, columns]
                 else:
                     order = ORDERS[self.header.form]
@@ -65,7 +68,7 @@ class PlyCloud:
                     block = file.read(count * record.itemsize)
                     block = block[: len(block) // record.itemsize * record.itemsize]
                     found = np.frombuffer(block, dtype=record)
-                    points = np.column_stack([found[c].astype(np.float64) for c in "xyz"])
+                    points = np.column_stack([found[c].astype(np.float64) for c in names])
                 if len(points) < count:
                     msg = f"it ends after {first + len(points)} of {self.count} points"
                     raise ValueError(msg)

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.errors import ParameterError
-from midrib.formats.clouds.common import refusing
+from midrib.formats.clouds.common import STATIONS, refusing
+from midrib.towers.cloud import InOrder
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -35,11 +36,11 @@ class Layout(NamedTuple):
 
     skipped: int  # lines before the first point
     delimiter: str  # "," ";" "\t" or " " for any run of blanks
-    columns: tuple[int, int, int]
+    columns: tuple[int, ...]  # x, y, z, and the station if a heading names it
     n_columns: int
 
 
-class TextCloud:
+class TextCloud(InOrder):
     """A text file of points; how many there are, only reading tells."""
 
     metres: float | None = None
@@ -52,17 +53,19 @@ class TextCloud:
             probe = file.read(1 << 16)
             lines = probe.decode("utf-8-sig").splitlines()
         self.layout = layout_of(lines[:PROBED], self.name)
+        self.has_stations = len(self.layout.columns) > MANY
 
-    def chunks(self) -> Iterator["Floats"]:
-        """Points (n, 3), a chunk at a time."""
+    def chunks(self, *, with_stations: bool = False) -> Iterator["Floats"]:
+        """Points (n, 3), or (n, 4) with stations, a chunk at a time."""
+        n = MANY + with_stations
         with refusing(self.path, ValueError), self.path.open("rb") as file:
             for _ in range(self.layout.skipped):
                 file.readline()
             while block := file.read(BLOCK):
-                yield self.parsed(block + file.readline())
+                yield self.parsed(block + file.readline(), n)
 
-    def parsed(self, block: bytes) -> "Floats":
-        """Points of some whole lines.
+    def parsed(self, block: bytes, n: int) -> "Floats":
+        """Points of some whole lines, ``n`` columns of them.
 
         Raises
         ------
@@ -76,7 +79,7 @@ class TextCloud:
         if delimiter == " ":
             block = re.sub(rb"[ \t]+", b" ", re.sub(rb"(?m)^[ \t]+|[ \t\r]+$", b"", block))
         names = [str(k) for k in range(self.layout.n_columns)]
-        wanted = [names[k] for k in self.layout.columns]
+        wanted = [names[k] for k in self.layout.columns[:n]]
         parse = csv.ParseOptions(delimiter=delimiter, invalid_row_handler=lambda _: "skip")
         convert = csv.ConvertOptions(
             include_columns=wanted, column_types={name: pa.float64() for name in wanted}
@@ -96,7 +99,7 @@ class TextCloud:
 
 def wanted_text(layout: Layout) -> str:
     """Columns as people count them."""
-    return ", ".join(str(k + 1) for k in layout.columns)
+    return ", ".join(str(k + 1) for k in layout.columns[:MANY])
 
 
 def layout_of(lines: list[str], name: str) -> Layout:
@@ -117,6 +120,8 @@ def layout_of(lines: list[str], name: str) -> Layout:
             continue
         heading = heading_of(lines[:skipped], len(parts), delimiter)
         columns = heading or first_columns(numbers, parts)
+        if columns[-1] not in numbers:
+            columns = columns[:MANY]  # stations have names: points are all one cloud
         return Layout(skipped, delimiter, columns, len(parts))
     msg = f"{name} has no line with three numbers among its first {len(lines)}, expected x, y, z"
     raise ParameterError(msg)
@@ -130,7 +135,7 @@ def first_columns(numbers: list[int], parts: list[str]) -> tuple[int, int, int]:
     return numbers[0], numbers[1], numbers[2]
 
 
-def heading_of(before: list[str], count: int, delimiter: str) -> tuple[int, int, int] | None:
+def heading_of(before: list[str], count: int, delimiter: str) -> tuple[int, ...] | None:
     """Columns by the names in the line before the first point, if it has them."""
     if not before:
         return None
@@ -138,7 +143,9 @@ def heading_of(before: list[str], count: int, delimiter: str) -> tuple[int, int,
     if len(parts) != count:
         return None
     found = [next((k for k, part in enumerate(parts) if part in some), -1) for some in NAMES]
-    return None if min(found) < 0 else (found[0], found[1], found[2])
+    if min(found) < 0:
+        return None
+    return (*found, *(k for k, part in enumerate(parts) if part in STATIONS))[: MANY + 1]
 
 
 def delimiter_of(line: str) -> str:

@@ -1,0 +1,167 @@
+"""Stations that do not quite fit together, and what makes them.
+
+o_k       how far station k is off, in the frame's plane: a shift; the mean of all stations is 0
+n         outward normal of the shell in a cell
+d_k       distance of the cell as station k has it
+
+Two stations that see the same cell see the same bump of the wall, so
+
+    d_k - d_j = n · (o_k - o_j)
+
+whatever the shell's form is: an oval moves both alike. Where stations overlap, their shifts are
+told apart from the shape; what all of them are off by together no cloud can tell.
+"""
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from midrib.towers.cells import Cells, Cube, Grid, Reference
+from midrib.towers.joint import normals_of, tukey
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from midrib.towers.cloud import Cloud
+    from midrib.types import Floats, Ints
+
+__all__ = ["Aligned", "Station", "labels_in", "stations_of"]
+
+LEAST_SHARE = 0.01  # of the sample, that makes a label a station
+MOST_STATIONS = 12  # each has a cube of counts of its own
+COARSER = 2  # cells are so much larger than those of the fit, either way
+USUAL = 0.01  # metres: standard deviation of shifts before any is known
+KNOWN = 0.0005  # metres: shifts that are less certain are not applied
+GRAZING = 0.0003  # metres: what beams that graze the shell may differ by, as simulated scans show
+ROUNDS = 8
+
+
+class Station(NamedTuple):
+    """A station, and how far it is off the mean of all: coordinate units."""
+
+    label: int
+    cells: int  # of the shell, that it shares with others
+    x: float
+    y: float
+    sigma: float  # of x and y
+
+
+class Aligned:
+    """A cloud whose stations are put where they fit together."""
+
+    has_stations = True
+
+    def __init__(self, cloud: "Cloud", stations: list[Station]) -> None:
+        self.cloud = cloud
+        self.count, self.metres = cloud.count, cloud.metres
+        self.crs, self.name = cloud.crs, cloud.name
+        order = sorted(stations)
+        self.labels = np.array([station.label for station in order], dtype=np.float64)
+        self.shifts = np.array([(station.x, station.y, 0.0) for station in order])
+
+    def chunks(self, *, with_stations: bool = False) -> "Iterator[Floats]":
+        """Points, a chunk at a time."""
+        for chunk in self.cloud.chunks(with_stations=True):
+            yield self.moved(chunk)[:, : 3 + with_stations]
+
+    def some(self, most: int) -> "Iterator[Floats]":
+        """Points from all over the cloud."""
+        return map(self.moved, self.cloud.some(most))
+
+    def moved(self, chunk: "Floats") -> "Floats":
+        """Points with their stations' shifts taken off; those of no station stay."""
+        at = np.minimum(np.searchsorted(self.labels, chunk[:, 3]), len(self.labels) - 1)
+        known = self.labels[at] == chunk[:, 3]
+        found = chunk.copy()
+        found[:, :3] -= np.where(known[:, None], self.shifts[at], 0.0)
+        return found
+
+
+def labels_in(sample: "Floats") -> "Floats":
+    """Labels of stations in a sample (n, 4); none if there are one or too many, or no column."""
+    if sample.shape[1] < 4:
+        return np.zeros(0)
+    labels, counts = np.unique(sample[:, 3], return_counts=True)
+    labels = labels[counts >= LEAST_SHARE * len(sample)]
+    return labels if 2 <= labels.size <= MOST_STATIONS else np.zeros(0)
+
+
+def stations_of(
+    chunks: "Iterable[Floats]", labels: "Floats", reference: Reference, grid: Grid, unit: float
+) -> list[Station]:
+    """Find how far stations are off where they overlap; one pass.
+
+    Returns
+    -------
+    list of Station
+        Empty if the stations see too little in common to tell.
+
+    Notes
+    -----
+    Robust least squares of all differences, the mean of each cell taken off, with shifts that are
+    some millimetres before anything is known. O(n) for n points.
+    """
+    cubes = [Cube(reference, coarser(grid), unit, fine=True) for _ in labels]
+    for chunk in chunks:
+        for label, cube in zip(labels, cubes, strict=True):
+            cube.add(chunk[chunk[:, 3] == label, :3])
+    design, known, shares = differences([cube.cells() for cube in cubes])
+    shifts, sigma = fitted(design, known, len(labels), unit)
+    if not sigma.max(initial=np.inf if not known.size else 0.0) <= KNOWN * unit:
+        return []
+    turned = shifts @ reference.frame.turn[:2, :2]
+    return [
+        Station(int(label), int(n), float(x), float(y), float(s))
+        for label, n, (x, y), s in zip(labels, shares, turned, sigma, strict=True)
+    ]
+
+
+def coarser(grid: Grid) -> Grid:
+    """Grid with larger cells, so that many cubes have room."""
+    levels, sectors = -(-grid.n_levels // COARSER), max(24, grid.n_sectors // COARSER)
+    return grid._replace(level=COARSER * grid.level, n_levels=levels, n_sectors=sectors)
+
+
+def differences(parts: list[Cells]) -> "tuple[Floats, Floats, Ints]":
+    """Design (m, 2 k) and distances (m,) of cells that two or more of k stations share.
+
+    Of each cell the mean is taken off both. Also how many shared cells each station has.
+    """
+    n = len(parts)
+    grid = parts[0].grid
+    d: Floats = np.full((grid.n_levels * grid.n_sectors, n), np.nan)
+    normal = np.zeros((len(d), n, 2))
+    for k, cells in enumerate(parts):
+        at = cells.level * grid.n_sectors + cells.sector
+        directions, off_corner = normals_of(cells)
+        d[at[off_corner], k] = cells.d[off_corner]
+        normal[at, k] = directions
+    is_shared = np.isfinite(d).sum(axis=1) > 1
+    d, normal = d[is_shared], normal[is_shared]
+    there = np.isfinite(d)
+    share = there / there.sum(axis=1, keepdims=True)
+    own = np.eye(n)[None, :, :, None] * normal[:, :, None, :]  # cell, station, whose shift, x y
+    mean = (share[:, :, None, None] * own).sum(axis=1, keepdims=True)
+    design: Floats = (own - mean).reshape(-1, 2 * n)
+    known = (d - np.nanmean(d, axis=1, keepdims=True)).ravel() if len(d) else np.zeros(0)
+    rows = there.ravel()
+    return design[rows], known[rows], there.sum(axis=0)
+
+
+def fitted(design: "Floats", known: "Floats", n: int, unit: float) -> "tuple[Floats, Floats]":
+    """Shifts (n, 2) of stations about their mean, and standard deviations (n,)."""
+    every = np.ones(known.size, dtype=np.bool_)
+    weight = np.ones(known.size)
+    residual, answer = known, np.zeros(2 * n)
+    centred = np.kron(np.eye(n) - 1.0 / n, np.eye(2))
+    inverse = np.zeros((2 * n, 2 * n))
+    for _ in range(ROUNDS if known.size else 0):
+        free = max(float(weight.sum()) - 2.0 * n, 1.0)
+        noise = float((weight * residual**2).sum()) / free + (1e-6 * unit) ** 2
+        told = (design * weight[:, None]).T @ design / noise
+        inverse = np.asarray(np.linalg.inv(told + np.eye(2 * n) / (USUAL * unit) ** 2))
+        answer = np.asarray(inverse @ (design.T @ (weight * known)) / noise)
+        residual = known - design @ answer
+        weight = tukey(residual, every, unit)
+    variance = np.diag(centred @ inverse @ centred).reshape(n, 2)
+    return (centred @ answer).reshape(n, 2), np.sqrt(variance.mean(axis=1) + (GRAZING * unit) ** 2)

@@ -1,0 +1,117 @@
+"""Stations that are a little off: told apart from the shape of the sections, and put together."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import laspy
+import numpy as np
+import pytest
+
+from midrib import tower_axis
+from midrib.errors import GeometryTypeError
+from midrib.formats.clouds import open_cloud
+from midrib.towers.cloud import ArrayCloud
+from midrib.towers.simulate import Scan, Tower
+from midrib.towers.stations import Aligned, Station, labels_in
+from midrib.types import Floats
+from tests.towers.scans import dirty, offsets
+
+TOWER = Tower(40.0, 2.5, 1.5, lean=0.1, lean_azimuth=40.0)
+
+
+def moved(scan: Scan) -> tuple[Floats, Floats]:
+    """Points of a scan whose stations are off by known shifts (3, 2), and these."""
+    shifts = np.array([(0.0045, 0.0), (0.0, -0.002), (-0.0045, 0.002)])
+    points = scan.points()
+    points[:, :2] += shifts[scan.stations]
+    return points, shifts
+
+
+@pytest.mark.parametrize("oval", [0.0, 0.01])
+def test_shifts_are_found_whatever_the_shape_is(oval: float) -> None:
+    scan = dirty(replace(TOWER, oval=oval, twist=20.0))
+    points, shifts = moved(scan)
+    axis = tower_axis(points, stations=scan.stations)
+    found = np.array([(station.x, station.y) for station in axis.stations])
+    assert found == pytest.approx(shifts, abs=8e-4)
+    assert axis.shape.name == ("oval" if oval else "round")
+    assert np.nanmax(offsets(axis, scan)) < 1e-3
+
+
+def test_without_stations_shifts_look_like_an_oval() -> None:
+    scan = dirty(TOWER)
+    points, _ = moved(scan)
+    assert tower_axis(points).shape.name == "oval"
+    # Who says how well stations were registered is not told of ovals that are no larger.
+    assert tower_axis(points, registration=0.003).shape.name == "round"
+
+
+def test_sigma_is_that_of_the_mean_of_stations() -> None:
+    scan = dirty(TOWER)
+    points, shifts = moved(scan)
+    levels = tower_axis(points, stations=scan.stations).levels
+    left = np.sqrt((shifts**2).sum() / 2.0 / 2.0 / 3.0)
+    assert np.nanmedian(levels["sigma"]) == pytest.approx(left, rel=0.15)
+
+
+def test_stations_that_share_nothing_are_left_where_they_are() -> None:
+    scan = dirty(TOWER, azimuths=(0.0, 180.0))
+    opposite = np.where(np.cos(np.arctan2(*scan.points()[:, 1::-1].T)) > 0.0, 0, 1)
+    assert tower_axis(scan.points(), stations=opposite).stations == []
+
+
+def test_labels_of_few_points_are_no_stations() -> None:
+    label = np.repeat([3.0, 7.0, 9.0], [500, 500, 5])
+    sample = np.column_stack([np.zeros((label.size, 3)), label])
+    assert labels_in(sample).tolist() == [3.0, 7.0]
+    assert labels_in(sample[:500]).size == 0
+    assert labels_in(sample[:, :3]).size == 0
+
+
+def test_points_of_no_station_stay() -> None:
+    cloud = ArrayCloud(np.zeros((3, 3)), np.array([5, 2, 8]))
+    stations = [Station(5, 1, 0.1, 0.2, 0.0), Station(2, 1, -0.3, 0.0, 0.0)]
+    chunk = next(iter(Aligned(cloud, stations).chunks()))
+    assert chunk.tolist() == [[-0.1, -0.2, 0.0], [0.3, 0.0, 0.0], [0.0, 0.0, 0.0]]
+
+
+def test_files_tell_stations(tmp_path: Path) -> None:
+    scan = dirty(TOWER, count=1000)
+    points = scan.points()
+    header = laspy.LasHeader(point_format=0, version="1.2")
+    header.scales = np.full(3, 1e-4)
+    las = laspy.LasData(header)
+    las.x, las.y, las.z = points.T
+    las.point_source_id = scan.stations
+    las.write(tmp_path / "a.laz")
+    rows = np.column_stack([scan.stations, points])
+    named = tmp_path / "a.csv"
+    np.savetxt(named, rows, fmt="%g", delimiter=",", header="station,x,y,z", comments="")
+    for path in (tmp_path / "a.laz", named):
+        cloud = open_cloud(path)
+        table = np.concatenate(list(cloud.chunks(with_stations=True)))
+        assert cloud.has_stations
+        assert np.array_equal(table[:, 3], scan.stations)
+        assert np.concatenate(list(cloud.chunks())).shape == (1000, 3)
+
+
+def test_sample_is_from_all_over_a_file(tmp_path: Path) -> None:
+    points = np.arange(3.0e6).reshape(-1, 3)
+    np.save(tmp_path / "a.npy", points)
+    header = laspy.LasHeader(point_format=0, version="1.2")
+    header.scales = np.ones(3)
+    with laspy.open(tmp_path / "a.las", "w", header=header) as writer:
+        record = laspy.ScaleAwarePointRecord.zeros(len(points), header=header)
+        record.x, record.y, record.z = points.T
+        writer.write_points(record)
+    for name in ("a.npy", "a.las"):
+        sample = np.concatenate(list(open_cloud(tmp_path / name).some(20_000)))[:, 0]
+        assert len(sample) == 20_000
+        parts = np.histogram(sample, bins=50, range=(0.0, 3.0e6))[0]
+        assert (parts == 400).all()
+        assert np.unique(sample).size == sample.size
+
+
+def test_stations_beside_the_points_are_refused() -> None:
+    with pytest.raises(GeometryTypeError, match=r"expected whole numbers \(1000,\)"):
+        tower_axis(dirty(count=1000).points(), stations=[1, 2])
