@@ -8,6 +8,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
@@ -18,7 +19,7 @@ from midrib.engines.frames import collapse_rows, frame_recipe
 from midrib.engines.local import POLL, largest_first
 from midrib.engines.partitions import Partition
 from midrib.engines.parts import Done, Work, make_part
-from midrib.errors import ParameterError
+from midrib.errors import MidribError, ParameterError
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -63,18 +64,17 @@ def run(
     from distributed import as_completed
 
     with client_of(scheduler, workers) as client:
-        shared = client.scatter(work, broadcast=True, hash=False)
-        futures = [
-            client.submit(make, shared, partition, retries=RETRIES, pure=False)
-            for partition in largest_first(partitions)
-        ]
+        # Data that is scattered goes with the last worker that holds it; what tasks hold does not.
+        futures = client.map(
+            partial(make_part, work), largest_first(partitions), retries=RETRIES, pure=False
+        )
         completed, n_missing = as_completed(futures), len(futures)
         try:
             while n_missing:
                 interrupts.check()
                 for future in completed.next_batch(block=False):
                     n_missing -= 1
-                    done = future.result()
+                    done = result_of(future)
                     said(done.counts.features)
                     yield done
                 time.sleep(POLL)
@@ -82,9 +82,22 @@ def run(
             client.cancel(futures)
 
 
-def make(work: Work, partition: Partition) -> Done:
-    """Make one part on a worker, which cannot be interrupted."""
-    return make_part(work, partition)
+def result_of(future: Any) -> Done:
+    """Return a part that is finished.
+
+    Raises
+    ------
+    MidribError
+        If it has failed again and again, or all workers that tried it are gone.
+    """
+    error = future.exception()
+    if error is None:
+        done: Done = future.result()
+        return done
+    if isinstance(error, MidribError):
+        raise error
+    msg = f"a part has failed on Dask {RETRIES + 1} times: {type(error).__name__}: {error}"
+    raise MidribError(msg) from error
 
 
 @contextmanager

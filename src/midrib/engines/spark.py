@@ -60,10 +60,23 @@ def run(
     MidribError
         If a partition has failed again and again.
     """
+    check_spark()
     if not partitions:
         return
-    check_spark()
     session = session_on(master)
+    try:
+        yield from run_on(session, work, partitions, said)
+    finally:
+        session.stop()
+
+
+def run_on(
+    session: "SparkSession",
+    work: Work,
+    partitions: list[Partition],
+    said: Callable[[int], None],
+) -> Iterator[Done]:
+    """Make the parts of partitions in a session that goes on afterwards."""
     tasks = largest_first(partitions)
 
     def make_parts(batches: Iterable[pa.RecordBatch]) -> Iterator[pa.RecordBatch]:
@@ -75,26 +88,23 @@ def run(
     rows = session.range(0, len(tasks), 1, len(tasks))  # a task for each partition
     made = rows.mapInArrow(make_parts, "number long")
     missing = {partition.number for partition in tasks}
-    try:
-        with ThreadPoolExecutor(1) as pool:
-            running = pool.submit(made.collect)
-            try:
-                while missing:
-                    # Spark has no word for a finished task; the part itself has.
-                    is_over = running.done()
-                    for done in finished(work, missing):
-                        said(done.counts.features)
-                        yield done
-                    if is_over:
-                        break
-                    interrupts.check()
-                    wait([running], POLL)
-            except BaseException:
-                session.sparkContext.cancelAllJobs()
-                raise
-            check_outcome(running, missing)
-    finally:
-        session.stop()
+    with ThreadPoolExecutor(1) as pool:
+        running = pool.submit(made.collect)
+        try:
+            while missing:
+                # Spark has no word for a finished task; the part itself has.
+                is_over = running.done()
+                for done in finished(work, missing):
+                    said(done.counts.features)
+                    yield done
+                if is_over:
+                    break
+                interrupts.check()
+                wait([running], POLL)
+        except BaseException:
+            session.sparkContext.cancelAllJobs()
+            raise
+        check_outcome(running, missing)
 
 
 def finished(work: Work, missing: set[int]) -> Iterator[Done]:
