@@ -27,7 +27,7 @@ def areas(count: int = 110, seed: int = 1) -> "np.ndarray[tuple[int], np.dtype[n
     random = np.random.default_rng(seed)
     found = np.empty(count, dtype=object)
     for i in range(count):
-        walk = np.cumsum(random.normal(size=(6, 2)) + [2.0, 0.0], axis=0) * 30.0
+        walk = np.cumsum(random.normal([2.0, 0.0], 1.0, (6, 2)), axis=0) * 30.0
         found[i] = shapely.LineString(walk).buffer(2.0, quad_segs=4)
     found[3::50] = shapely.from_wkt("POLYGON ((0 0, 8 8, 8 0, 0 8, 0 0))")  # refused
     found[13::50] = shapely.from_wkt("POLYGON ((0 0, 90 0, 90 20, 0 20, 0 9, 0 20, 0 0))")

@@ -1,5 +1,6 @@
 """One batch of areas to one batch of lines: what it says, and that divisions do not matter."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +53,9 @@ def test_every_row_is_in_one_of_both_and_counted(whole: Collapsed) -> None:
     assert counts.length == pytest.approx(
         sum(filter(None, whole.lines["length_2"].to_pylist())), rel=1e-12
     )
-    status = dict(zip(whole.lines["number"].to_pylist(), whole.lines["status"].to_pylist(), strict=True))
+    status = dict(
+        zip(whole.lines["number"].to_pylist(), whole.lines["status"].to_pylist(), strict=True)
+    )
     assert status[33] == "no geometry"
     assert status[0] == "ok"
     assert status[13].startswith("repaired: ")
@@ -62,10 +65,7 @@ def test_every_row_is_in_one_of_both_and_counted(whole: Collapsed) -> None:
 def test_divisions_do_not_matter(source: Path, whole: Collapsed, cuts: list[int]) -> None:
     recipe, batch = recipe_of(source), batch_of(source)
     stops = [0, *sorted(cuts), 110]
-    parts = [
-        collapse_batch(batch.slice(a, b - a), recipe)
-        for a, b in zip(stops, stops[1:], strict=False)
-    ]
+    parts = [collapse_batch(batch.slice(a, b - a), recipe) for a, b in pairwise(stops)]
     assert pa.Table.from_batches([p.lines for p in parts]).equals(
         pa.Table.from_batches([whole.lines])
     )

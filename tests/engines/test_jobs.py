@@ -9,7 +9,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
-from midrib.engines import local, parts
+from midrib.engines import batches, local, parts
 from midrib.engines.jobs import Job, logged
 from midrib.errors import MidribError, ParameterError
 from midrib.formats.reading import open_layer
@@ -37,7 +37,9 @@ def run(job: Job, *, overwrite: bool = False) -> list[int]:
     return made(logged(done, job.folder))
 
 
-def test_parts_are_one_layer_together(source: Path, expected: dict[str, bytes], tmp_path: Path) -> None:
+def test_parts_are_one_layer_together(
+    source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
     run(job_on(source, tmp_path / "lines"))
     assert len(expected) == 6 + 3  # three of them have a refused area
     table = pq.read_table(tmp_path / "lines")  # passes over what begins with an underscore
@@ -50,11 +52,11 @@ def test_a_part_that_fails_leaves_nothing_and_the_others_stay(
     source: Path, expected: dict[str, bytes], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     job = job_on(source, tmp_path / "lines")
-    collapse_batch = parts.collapse_batch
+    collapse_batch = batches.collapse_batch
 
     def fail(batch: object, recipe: object, first: int) -> object:
         if first == 55:
-            raise OSError("the network is gone")  # noqa: EM101
+            raise OSError("the network is gone")
         return collapse_batch(batch, recipe, first)  # type: ignore[arg-type]
 
     monkeypatch.setattr(parts, "collapse_batch", fail)
@@ -155,8 +157,7 @@ def test_an_interrupted_command_goes_on_where_it_ended(
     if number is signal.SIGINT:
         assert running.returncode == 130
         assert said == (
-            "finished parts are kept, the same command goes on from there\n"
-            "midrib: interrupted\n"
+            "finished parts are kept, the same command goes on from there\nmidrib: interrupted\n"
         )
         assert not list(out.glob(".part*"))
     again = start("collapse", source, out, *options)

@@ -54,13 +54,12 @@ def test_a_reader_stops_when_nobody_listens_any_more() -> None:
 def test_errors_of_a_reader_come_after_what_it_has_read() -> None:
     def items() -> Generator[int, None, None]:
         yield 1
-        raise OSError("the disk is gone")  # noqa: EM101
+        raise OSError("the disk is gone")
 
-    found = []
+    walk = ahead(items())
+    assert next(walk) == 1
     with pytest.raises(OSError, match="the disk is gone"):
-        for item in ahead(items()):
-            found.append(item)  # noqa: PERF402
-    assert found == [1]
+        next(walk)
 
 
 def test_a_writer_uses_all_items_in_order_before_the_end() -> None:
@@ -79,14 +78,22 @@ def test_a_writer_uses_all_items_in_order_before_the_end() -> None:
 @pytest.mark.parametrize("count", [1, 100])
 def test_errors_of_a_writer_are_raised_here(count: int) -> None:
     def use(_: int) -> None:
-        raise OSError("the disk is full")  # noqa: EM101
+        raise OSError("the disk is full")
 
-    with pytest.raises(OSError, match="the disk is full"), behind(use) as hand_over:
-        for i in range(count):
-            hand_over(i)
+    def hand_over_all() -> None:
+        with behind(use) as hand_over:
+            for i in range(count):
+                hand_over(i)
+
+    with pytest.raises(OSError, match="the disk is full"):
+        hand_over_all()
 
 
 def test_an_error_in_between_is_not_covered_up() -> None:
-    with pytest.raises(KeyError), behind(lambda _: None) as hand_over:
-        hand_over(1)
-        raise KeyError
+    def fail() -> None:
+        with behind(lambda _: None) as hand_over:
+            hand_over(1)
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()

@@ -9,7 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from midrib.engines import partitions
-from midrib.engines.partitions import Partition, batch_rows, batches_of, check_alike, files_of, partitions_of, small_groups
+from midrib.engines.partitions import (
+    Partition,
+    batch_rows,
+    batches_of,
+    check_alike,
+    files_of,
+    partitions_of,
+    small_groups,
+)
 from midrib.errors import ParameterError
 from midrib.formats.reading import choose_layer
 from tests.engines.layers import batch_of, write_areas

@@ -11,7 +11,6 @@ import pytest
 from midrib.engines import local, spark
 from midrib.engines.frames import collapse_rows
 from midrib.errors import ParameterError
-from tests.cli.commands import Runner
 from tests.engines.layers import batch_of, contents, job_on, made, recipe_of, write_areas
 
 pytest.importorskip("pyspark", reason="Spark is not installed")
@@ -57,20 +56,3 @@ def test_frames_have_the_lines_of_batches(source: Path, session: Any) -> None:
         spark.collapse_frame(frame, "x")
     with pytest.raises(ParameterError, match=r"spacing is -1.0, expected a positive"):
         spark.collapse_frame(frame, "geom", spacing=-1.0)
-
-
-@pytest.mark.parametrize(
-    ("name", "said"),
-    [
-        ("midrib.checks.find_spec", "--engine spark needs pyspark: pip install midrib[spark]"),
-        ("midrib.engines.spark.shutil.which", "--engine spark needs Java 17 or later"),
-    ],
-)
-def test_what_is_missing_is_named(
-    name: str, said: str, source: Path, midrib: Runner, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delenv("JAVA_HOME", raising=False)
-    monkeypatch.setattr(name, lambda _: None)
-    outcome = midrib("collapse", source, source.with_name("lines"), "--engine", "spark")
-    assert outcome.code == 2
-    assert said in outcome.err
