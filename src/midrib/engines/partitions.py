@@ -18,7 +18,15 @@ from midrib.errors import ParameterError
 from midrib.formats.endings import FOLDERS
 from midrib.formats.reading import PARQUET_ENDINGS, choose_layer, count_features, open_layer
 
-__all__ = ["Partition", "batches_of", "check_alike", "files_of", "fingerprint", "partitions_of"]
+__all__ = [
+    "BATCH_ROWS",
+    "Partition",
+    "batches_of",
+    "check_alike",
+    "files_of",
+    "fingerprint",
+    "partitions_of",
+]
 
 PART_ROWS = 50_000  # features of a partition: some seconds of work
 PART_BYTES = 256_000_000

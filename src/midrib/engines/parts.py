@@ -21,9 +21,10 @@ import pyarrow.parquet as pq
 from midrib import interrupts
 from midrib.engines.batches import Collapsed, Counts, collapse_batch
 from midrib.engines.overlap import ahead, behind
-from midrib.engines.partitions import Partition, batches_of
+from midrib.engines.partitions import BATCH_ROWS, Partition, batches_of
 from midrib.engines.recipe import Recipe
 from midrib.formats.geoparquet import GeoParquetWriter, Kind
+from midrib.formats.reading import BUFFER
 
 __all__ = ["REFUSED", "Done", "Work", "kinds_in", "make_part", "remove_unfinished", "tables_of"]
 
@@ -163,9 +164,9 @@ def kinds_in(paths: Iterable[Path]) -> frozenset[Kind]:
 
 
 def tables_of(paths: Iterable[Path]) -> Iterator[pa.Table]:
-    """Features of parts, row group by row group: attributes, WKB."""
+    """Features of parts, some at a time: attributes, WKB."""
     for path in paths:
-        with pq.ParquetFile(path) as file:
+        with pq.ParquetFile(path, buffer_size=BUFFER) as file:
             names = file.schema_arrow.names[:-1]  # the last column has the boxes
-            for group in range(file.num_row_groups):
-                yield file.read_row_group(group, columns=names)
+            for batch in file.iter_batches(BATCH_ROWS, columns=names):
+                yield pa.Table.from_batches([batch])

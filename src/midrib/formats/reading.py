@@ -20,6 +20,7 @@ from midrib.errors import ParameterError
 from midrib.formats.geoparquet import geo_column
 
 __all__ = [
+    "BUFFER",
     "PARQUET_ENDINGS",
     "Batch",
     "Geometries",
