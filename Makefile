@@ -30,6 +30,7 @@ bench: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-bench.txt
 	$(BIN)/python benchmarks/speed.py
 	$(BIN)/python benchmarks/methods.py
+	$(BIN)/python benchmarks/scale.py
 	$(BIN)/python benchmarks/scoreboard.py
 
 quality: $(VENV)/ready

@@ -151,7 +151,7 @@ def test_interrupts_leave_no_file(midrib: Runner, monkeypatch: pytest.MonkeyPatc
     def interrupt(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("midrib.cli.output.write_layer", interrupt)
+    monkeypatch.setattr("midrib.cli.output.write_tables", interrupt)
     outcome = midrib("collapse", "in.gpkg", "out.gpkg")
     assert (outcome.code, outcome.err) == (130, "midrib: interrupted\n")
 
@@ -162,7 +162,7 @@ def test_our_own_errors_are_a_sentence_too(midrib: Runner, monkeypatch: pytest.M
         message = "the mesh has come apart, please report it"
         raise InvariantError(message)
 
-    monkeypatch.setattr("midrib.cli.job.collapse", fail)
+    monkeypatch.setattr("midrib.engines.batches.collapse", fail)
     outcome = midrib("collapse", "in.gpkg", "out.gpkg")
     assert (outcome.code, outcome.err) == (2, "midrib: the mesh has come apart, please report it\n")
 
@@ -176,7 +176,7 @@ def test_bugs_leave_their_traceback_in_a_file(
 
     reports = tmp_path_factory.mktemp("reports")
     monkeypatch.setattr("tempfile.tempdir", str(reports))
-    monkeypatch.setattr("midrib.cli.job.collapse", fail)
+    monkeypatch.setattr("midrib.engines.batches.collapse", fail)
     outcome = midrib("collapse", "in.gpkg", "out.gpkg")
     (report,) = reports.iterdir()
     assert outcome.code == 2

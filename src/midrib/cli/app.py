@@ -34,8 +34,11 @@ app.command(
     "Attributes and CRS are kept. New columns: length, width_mean and width_max (in units of the "
     "CRS, metres if it is geographic) and status. Areas that are refused go to a layer, or a file, "
     "…_refused, with the reason.\n\n"
+    "Files of any size are read, worked on and written batch by batch, but for --connect and "
+    "--figure, which take all areas into memory.\n\n"
     "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
     epilog="Examples:\n\nmidrib collapse rivers.gpkg out.gpkg --spacing 5m\n\n"
+    "midrib collapse rivers.parquet lines --workers 8\n\n"
     "midrib collapse roads.gpkg out.gpkg --connect\n\n"
     "midrib collapse map.gpkg out.parquet --layer slope --main crest:slope_id --figure out.svg",
 )(collapse)

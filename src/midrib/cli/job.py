@@ -1,4 +1,4 @@
-"""The work of ``midrib collapse``: batches of features in, lines and refused areas out."""
+"""Results of commands in memory; the work of ``midrib collapse --connect``."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -7,13 +7,11 @@ import numpy as np
 import pyarrow as pa
 import shapely
 
-from midrib import measures
-from midrib.curves.aftercare import aftercare
-from midrib.curves.collapse import Joint, Problem, collapse
-from midrib.curves.methods import finder_of
+from midrib.curves.collapse import Joint, collapse
+from midrib.engines.batches import Counts, measured, statuses
+from midrib.engines.recipe import MEASURES
+from midrib.formats.fitting import free_name
 from midrib.formats.units import is_geographic
-from midrib.formats.writing import free_name
-from midrib.measures.widths import mean_and_largest_width
 from midrib.profiles import add_widths, with_m
 from midrib.ragged import without_holes
 
@@ -21,13 +19,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from midrib.cli.report import Report
-    from midrib.formats.guides import Guides
     from midrib.formats.reading import Batch, Geometries, Source
-    from midrib.types import Floats, Ints
+    from midrib.types import Ints
 
-__all__ = ["JOINT_COLUMNS", "Results", "check_options", "collapse_layer", "joint_features"]
+__all__ = ["JOINT_COLUMNS", "Results", "collapse_connected", "joint_features"]
 
-NO_GEOMETRY = "no geometry"
 JOINT_COLUMNS = {  # name, and which attribute of a joint it holds
     "area": ("index", pa.int64()),
     "other": ("other", pa.int64()),
@@ -53,58 +49,33 @@ class Results:
     n_refused: int = 0
     n_repaired: int = 0
 
+    @property
+    def counts(self) -> Counts:
+        """Counts of all features."""
+        numbers = (self.n_features, self.n_lines, self.n_refused, self.n_repaired)
+        return Counts(*numbers, self.total_length)
 
-def check_options(method: str, options: dict[str, Any]) -> None:
-    """Refuse a method or an option that there is not, even where no feature needs it."""
-    options = dict(options)
-    aftercare(options.pop("simplify", None), options.pop("smooth", False))
-    finder_of(method, **options)
 
-
-def collapse_layer(
-    results: Results,
-    method: str,
-    options: dict[str, Any],
-    guides: "Guides",
-    report: "Report",
-    *,
-    connect: bool = False,
-) -> None:
-    """Collapse all features of a layer: a batch at a time, or all at once if lines are to meet."""
+def collapse_connected(results: Results, options: dict[str, Any], report: "Report") -> None:
+    """Collapse all features of a layer at once, so that lines of neighbours meet."""
     source = results.source
     geographic = is_geographic(source.crs)
     report.start()
-    batches = report.track(source.batches(), source.count)
-    for batch in [whole(batches)] if connect else batches:
-        along, unreadable = guides.of(batch)
-        lines, problems = collapse(
-            batch.geometries,
-            method,
-            on_error="report",
-            along=None if connect else along,
-            geographic=geographic,
-            connect=connect,
-            **options,
-        )
-        results.joints += [p for p in problems if isinstance(p, Joint)]
-        problems = [p for p in problems if not isinstance(p, Joint)]
-        lines[shapely.is_empty(lines)] = None
-        refused = dict(batch.unreadable) | unreadable
-        lines[list(unreadable)] = None
-        status = statuses(batch, problems, refused)
-        add_lines(
-            results,
-            batch,
-            lines,
-            status=status,
-            refused=refused,
-            geographic=geographic,
-            connect=connect,
-            holes=options.get("holes") != "ignored",
-        )
-        add_refused(results, batch, refused)
-        results.n_features += len(lines)
-        results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
+    batch = whole(report.track(source.batches(), source.count))
+    areas = batch.geometries
+    lines, problems = collapse(
+        areas, on_error="report", geographic=geographic, connect=True, **options
+    )
+    results.joints += [p for p in problems if isinstance(p, Joint)]
+    problems = [p for p in problems if not isinstance(p, Joint)]
+    lines[shapely.is_empty(lines)] = None
+    refused = dict(batch.unreadable)
+    status = statuses(areas, problems, refused)
+    holes = options.get("holes") != "ignored"
+    add_lines(results, batch, lines, status, refused, geographic=geographic, holes=holes)
+    add_refused(results, batch, refused)
+    results.n_features += len(lines)
+    results.n_repaired += len({p.index for p in problems if p.status == "repaired"})
 
 
 def whole(batches: "Iterable[Batch]") -> "Batch":
@@ -129,28 +100,14 @@ def joint_features(joints: list[Joint]) -> "tuple[pa.Table, Geometries]":
     return pa.table(columns), points
 
 
-def statuses(batch: "Batch", problems: list[Problem], refused: dict[int, str]) -> list[str]:
-    """Text about each feature; reasons of refusals are added to ``refused``."""
-    said: list[list[str]] = [[] for _ in batch.geometries]
-    for problem in problems:
-        where = f"part {problem.part}" if problem.part else ""
-        reason = problem.reason.removesuffix(f" {problem.status}")
-        said[problem.index].append(f"{where} {problem.status}: {reason}".lstrip())
-        if problem.status == "refused":
-            refused.setdefault(problem.index, f"{where}: {reason}".removeprefix(": "))
-    there = ~(shapely.is_missing(batch.geometries) | shapely.is_empty(batch.geometries))
-    return ["; ".join(s) or ("ok" if t else NO_GEOMETRY) for s, t in zip(said, there, strict=True)]
-
-
 def add_lines(
     results: Results,
     batch: "Batch",
     lines: "Geometries",
-    *,
     status: list[str],
     refused: dict[int, str],
+    *,
     geographic: bool,
-    connect: bool,
     holes: bool,
 ) -> None:
     """Keep the features that have a line, and those that never had a geometry.
@@ -163,22 +120,17 @@ def add_lines(
     lines, areas = lines[rows], batch.geometries[rows]
     if not holes:
         areas = np.array([*map(without_holes, areas), None], dtype=object)[:-1]
-    length = measures.length(lines, geographic=geographic)
-    own = pieces_inside(lines, areas) if connect else lines
-    mean, largest = mean_and_largest_width(own, areas, geographic=geographic)
-    columns = {
-        "length": numbers(length),
-        "width_mean": numbers(mean),
-        "width_max": numbers(largest),
-        "status": pa.array([status[i] for i in rows], type=pa.string()),
-    }
+    inside = pieces_inside(lines, areas)
+    measures, length = measured(lines, areas, geographic=geographic, inside=inside)
+    text = pa.array([status[i] for i in rows], type=pa.string())
+    columns = dict(zip(MEASURES, [*measures, text], strict=True))
     results.attributes.append(with_columns(batch.attributes.take(rows), columns))
     if results.has_m:
         lines = add_widths(lines, areas, geographic=geographic)
-        lines = without_width_outside(lines, areas) if connect else lines
+        lines = without_width_outside(lines, areas)
     results.lines.append(lines)
     results.n_lines += int(np.count_nonzero(~shapely.is_missing(lines)))
-    results.total_length += float(np.nansum(length))
+    results.total_length += length
 
 
 def pieces_inside(lines: "Geometries", areas: "Geometries") -> "Geometries":
@@ -218,11 +170,6 @@ def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> No
     results.refused_attributes.append(with_columns(batch.attributes.take(rows), columns))
     results.refused_areas.append(batch.geometries[rows])
     results.n_refused += len(rows)
-
-
-def numbers(values: "Floats") -> pa.Array:
-    """Make a column of numbers, null where they are NaN."""
-    return pa.array(values, type=pa.float64(), from_pandas=True)
 
 
 def with_columns(table: pa.Table, columns: dict[str, pa.Array]) -> pa.Table:

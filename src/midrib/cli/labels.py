@@ -7,10 +7,11 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
-from midrib.cli.job import add_refused, numbers, statuses, with_columns
+from midrib.cli.job import add_refused, with_columns
 from midrib.curves.collapse import collapse
 from midrib.curves.control import control_points
 from midrib.curves.label import label_line
+from midrib.engines.batches import numbers, statuses
 from midrib.formats.units import is_geographic
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def label_layer(results: "Results", batch: "Batch", options: dict[str, Any]) -> 
         batch.geometries, on_error="report", geographic=geographic, **options
     )
     refused = dict(batch.unreadable)
-    status = statuses(batch, problems, refused)
+    status = statuses(batch.geometries, problems, refused)
     rows = np.array([i for i in range(len(status)) if i not in refused], dtype=np.intp)
     lines = labels.lines[rows]
     length = measures.length(lines, geographic=geographic)
@@ -54,7 +55,7 @@ def point_layer(results: "Results", batch: "Batch", method: str, options: dict[s
     geographic = is_geographic(results.source.crs)
     lines, problems = collapse(batch.geometries, method, on_error="report", geographic=geographic)
     refused = dict(batch.unreadable)
-    status = statuses(batch, problems, refused)
+    status = statuses(batch.geometries, problems, refused)
     parts, row = shapely.get_parts(lines, return_index=True)
     whole = shapely.is_valid(batch.geometries)
     found = []

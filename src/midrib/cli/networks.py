@@ -7,9 +7,10 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
-from midrib.cli.job import add_refused, numbers, statuses, whole, with_columns
+from midrib.cli.job import add_refused, whole, with_columns
 from midrib.cli.output import Second
 from midrib.curves.network import network
+from midrib.engines.batches import numbers, statuses
 from midrib.formats.units import is_geographic
 from midrib.measures.widths import mean_widths_of_pieces
 
@@ -85,7 +86,7 @@ def network_layer(
     areas = batch.geometries
     found, problems = network(areas, method, on_error="report", geographic=geographic, **options)
     refused = dict(batch.unreadable)
-    status = statuses(batch, problems, refused)
+    status = statuses(batch.geometries, problems, refused)
     add_pieces(results, nodes, batch, found, status, geographic)
     add_refused(results, batch, refused)
     results.n_features += len(areas)

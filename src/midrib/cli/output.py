@@ -1,13 +1,17 @@
 """Where results go: lines, refused areas, a second layer, a figure, a summary."""
 
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
+import shapely
 
 from midrib.cli.job import JOINT_COLUMNS, joint_features
+from midrib.engines.batches import Counts
+from midrib.engines.parts import kinds_in, tables_of
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
 from midrib.formats.endings import endings_with_m, format_of
@@ -16,15 +20,19 @@ from midrib.formats.units import Unit, is_geographic, unit_of
 from midrib.formats.writing import (
     KINDS,
     Features,
+    Layer,
     check_free,
     one_kind_each,
     staged,
     write_layer,
+    write_tables,
 )
 
 if TYPE_CHECKING:
     from midrib.cli.job import Results
     from midrib.cli.report import Report
+    from midrib.engines.parts import Work
+    from midrib.engines.recipe import Recipe
     from midrib.formats.guides import Guides
     from midrib.formats.reading import Geometries, Source
 
@@ -158,7 +166,8 @@ class Places(NamedTuple):
             source.crs,
         )
         with staged(self.out.parent, stale=self.stale) as stage:
-            notes, where = write_layer(stage / self.out.name, lines), []
+            notes = write_layer(stage / self.out.name, lines)
+            where: list[str] = []
             if results.n_refused:
                 refused = lines._replace(
                     layer=f"{layer}_refused",
@@ -166,12 +175,8 @@ class Places(NamedTuple):
                     geometries=np.concatenate(results.refused_areas),
                     kind=source.kind,
                 )
-                apart, lost = one_kind_each(refused, format_of(self.out))
+                lost, where = self.write_refused(stage, refused)
                 notes += lost
-                for name, some in apart.items():
-                    path = self.all_refused.get(name, self.out)
-                    notes += write_layer(stage / path.name, some)
-                    where.append(self.where(some.layer, path))
             if second is not None:
                 more = lines._replace(
                     layer=f"{layer}_{self.second}",
@@ -180,18 +185,63 @@ class Places(NamedTuple):
                     kind=second.kind,
                 )
                 notes += write_layer(stage / self.beside(str(self.second)).name, more)
-        if format_of(self.out).is_drawing:
-            kept = [self.refused] * (not where) + [self.beside("joints")] * (second is None)
-            notes += [f"{p} was there before, it is left as it was" for p in kept if p.exists()]
-        for note in dict.fromkeys(notes):
-            report.say(f"note: {note}")
-        report.say(summary(results, report.elapsed))
-        report.say(f"written to {self.out}")
-        if results.n_refused:
-            report.say(f"refused areas, with reasons, in {' and '.join(where)}")
+        self.sum_up(report, results.counts, source.crs, notes, where)
         if second is not None:
             place = self.where(f"{layer}_{self.second}", self.beside(str(self.second)))
             report.say(f"{second.summary}, in {place}")
+
+    def write_parts(
+        self, stage: Path, work: "Work", numbers: list[int], source: "Source", layer: str
+    ) -> tuple[list[str], list[str]]:
+        """Write parts as layers into files that are to be there whole or not at all.
+
+        Returns
+        -------
+        list of str
+            Notes.
+        list of str
+            Where refused areas are.
+        """
+        recipe = work.recipe
+        paths = [work.lines(k) for k in numbers]
+        lines = stored(paths, recipe.lines, recipe, layer, LINE_OF.get(source.kind, "LineString"))
+        notes = write_tables(stage / self.out.name, lines, partial(tables_of, paths))
+        paths = [path for k in numbers if (path := work.refused(k)).exists()]
+        if not paths:
+            return notes, []
+        refused = stored(paths, recipe.refused, recipe, f"{layer}_refused", source.kind)
+        if format_of(self.out).has_one_kind:
+            lost, where = self.write_refused(stage, in_memory(refused, paths))
+        else:
+            lost = write_tables(stage / self.refused.name, refused, partial(tables_of, paths))
+            where = [self.where(refused.name, self.refused)]
+        return notes + lost, where
+
+    def write_refused(self, stage: Path, refused: Features) -> tuple[list[str], list[str]]:
+        """Write refused areas; return notes, and where they are."""
+        apart, notes = one_kind_each(refused, format_of(self.out))
+        where = []
+        for name, some in apart.items():
+            path = self.all_refused.get(name, self.out)
+            notes += write_layer(stage / path.name, some)
+            where.append(self.where(some.layer, path))
+        return notes, where
+
+    def sum_up(
+        self, report: "Report", counts: Counts, crs: str | None, notes: list[str], where: list[str]
+    ) -> None:
+        """Say what has been written, and what the format could not keep."""
+        if format_of(self.out).is_drawing:
+            kept = [self.refused] * (not where) + [self.beside("joints")] * (self.second is None)
+            notes = notes + [
+                f"{p} was there before, it is left as it was" for p in kept if p.exists()
+            ]
+        for note in dict.fromkeys(notes):
+            report.say(f"note: {note}")
+        report.say(summary(counts, crs, report.elapsed))
+        report.say(f"written to {self.out}")
+        if where:
+            report.say(f"refused areas, with reasons, in {' and '.join(where)}")
 
     def where(self, layer: str, path: Path) -> str:
         """Say where a second layer is."""
@@ -214,13 +264,33 @@ def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Pa
         )
 
 
-def summary(results: "Results", seconds: float) -> str:
+def summary(counts: Counts, crs: str | None, seconds: float) -> str:
     """One line about a run."""
-    length = length_text(results.total_length, unit_of(results.source.crs))
-    rate = results.n_features / seconds
+    length = length_text(counts.length, unit_of(crs))
+    rate = counts.features / seconds
     return (
-        f"{results.n_lines} lines of {results.n_features} features, {results.n_refused} refused, "
-        f"{results.n_repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
+        f"{counts.lines} lines of {counts.features} features, {counts.refused} refused, "
+        f"{counts.repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
+    )
+
+
+def stored(paths: list[Path], schema: pa.Schema, recipe: "Recipe", layer: str, kind: str) -> Layer:
+    """Tell what is known of a layer whose features are in parts."""
+    attributes = pa.schema([*schema][:-1])
+    return Layer(layer, attributes, recipe.geometry, kind, recipe.crs, kinds_in(paths))
+
+
+def in_memory(layer: Layer, paths: list[Path]) -> Features:
+    """Read all features of a layer whose features are in parts."""
+    table = pa.concat_tables(tables_of(paths))
+    wkb = table.column(table.num_columns - 1)
+    return Features(
+        layer.name,
+        table.select(layer.attributes.names),
+        shapely.from_wkb(wkb.to_numpy()),
+        layer.geometry,
+        layer.kind,
+        layer.crs,
     )
 
 

@@ -6,10 +6,11 @@ import numpy as np
 import pyarrow as pa
 import shapely
 
-from midrib.cli.job import add_refused, statuses, with_columns
+from midrib.cli.job import add_refused, with_columns
 from midrib.cli.networks import add_pieces
 from midrib.cli.output import Second
 from midrib.curves.partial import partial_collapse
+from midrib.engines.batches import statuses
 from midrib.formats.units import is_geographic
 
 if TYPE_CHECKING:
@@ -67,7 +68,7 @@ def partial_layer(
         areas, method=method, on_error="report", geographic=geographic, **options
     )
     refused = dict(batch.unreadable)
-    status = statuses(batch, problems, refused)
+    status = statuses(batch.geometries, problems, refused)
     add_pieces(results, nodes, batch, partial.lines, status, geographic)
     wide.add(batch, partial.areas, status)
     add_refused(results, batch, refused)

@@ -19,11 +19,12 @@ def points(
     quiet: cli.Quiet = False,
 ) -> None:
     """Find the vertices of lines that matter most."""
-    from midrib.cli.job import Results, check_options
+    from midrib.cli.job import Results
     from midrib.cli.labels import point_layer
     from midrib.cli.output import Places
     from midrib.cli.report import Report
     from midrib.curves.control import least_importance
+    from midrib.engines.recipe import check_options
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in
 

@@ -32,11 +32,11 @@ def profile(
     quiet: cli.Quiet = False,
 ) -> None:
     """Measure the width of areas along their lines: a table of stations and widths."""
-    from midrib.cli.job import check_options
     from midrib.cli.lines import options_of_line
     from midrib.cli.output import Places
     from midrib.cli.report import Report
     from midrib.cli.tables import Table, check_field, check_table, profile_layer, write_table
+    from midrib.engines.recipe import check_options
     from midrib.formats.guides import guides_for
     from midrib.formats.reading import choose_layer, open_layer
     from midrib.formats.units import length_in

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
@@ -82,6 +83,16 @@ class Report:
         doing: str = "collapsing",
     ) -> Iterator[Work]:
         """Show a progress bar while batches are worked on, if there is a terminal."""
+        with self.progress(count, doing=doing) as said:
+            for batch in batches:
+                yield batch
+                said(size(batch))
+
+    @contextmanager
+    def progress(
+        self, count: int | None, done: int = 0, doing: str = "collapsing"
+    ) -> Iterator[Callable[[int], None]]:
+        """Show a progress bar, if there is a terminal; what it gives takes numbers of features."""
         bar = Progress(
             TextColumn(doing),
             BarColumn(),
@@ -93,10 +104,8 @@ class Report:
             disable=self.console.quiet or not self.console.is_terminal,
         )
         with bar:
-            task = bar.add_task("", total=count)
-            for batch in batches:
-                yield batch
-                bar.advance(task, size(batch))
+            task = bar.add_task("", total=count, completed=done)
+            yield lambda features: bar.advance(task, features)
 
     @property
     def elapsed(self) -> float:

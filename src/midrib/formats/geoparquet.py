@@ -3,22 +3,35 @@
 Source: https://geoparquet.org/releases/v1.1.0/
 """
 
+import base64
 import json
+from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import shapely
 
 from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
-    from midrib.formats.reading import Geometries
+    from numpy.typing import NDArray
 
-__all__ = ["GeoColumn", "geo_column", "write_parquet"]
+    from midrib.formats.reading import Geometries
+    from midrib.types import Floats
+
+__all__ = ["CRS84_TEXT", "GeoColumn", "GeoParquetWriter", "Kind", "geo_column", "kinds_of"]
+
+Kind: TypeAlias = tuple[str, bool, bool]  # name, has Z, has M
 
 VERSION = "1.1.0"
+GROUP_ROWS, GROUP_BYTES = 50_000, 64_000_000  # of a row group at most, bytes of WKB
+CORNERS = ("xmin", "ymin", "xmax", "ymax")
+BOX = pa.struct([(corner, pa.float64()) for corner in CORNERS])
 CRS84 = {  # what a column without "crs" means
     "type": "GeographicCRS",
     "name": "WGS 84 (CRS84)",
@@ -50,6 +63,7 @@ CRS84 = {  # what a column without "crs" means
     },
     "id": {"authority": "OGC", "code": "CRS84"},
 }
+CRS84_TEXT = json.dumps(CRS84)
 
 
 class GeoColumn(NamedTuple):
@@ -91,20 +105,114 @@ def geo_column(metadata: dict[bytes, bytes] | None, path: Path) -> GeoColumn:
     )
 
 
-def write_parquet(path: Path, table: pa.Table, column: str, crs: str | None) -> None:
-    """Write a table with a column of WKB as GeoParquet."""
-    geometries = shapely.from_wkb(table[column].to_numpy())
-    about: dict[str, Any] = {
-        "encoding": "WKB",
-        "geometry_types": kinds_of(geometries),
-        "crs": None if crs is None else json.loads(crs),
-    }
-    if about["geometry_types"]:
-        about["bbox"] = shapely.total_bounds(geometries).tolist()
-    geo = {"version": VERSION, "primary_column": column, "columns": {column: about}}
-    pq.write_table(table.replace_schema_metadata({"geo": json.dumps(geo)}), path)
+class GeoParquetWriter:
+    """A GeoParquet file that grows row group by row group, with a box beside each geometry.
+
+    Row groups are cut by rows and bytes of features alone: however features come, in one table
+    or in many, the file has the same bytes. At most one row group is held in memory.
+
+    Parameters
+    ----------
+    path : Path
+    schema : pyarrow.Schema
+        Attributes, and the column of WKB.
+    column : str
+        Name of the column of WKB.
+    crs : str or None
+        PROJJSON.
+    """
+
+    def __init__(self, path: Path, schema: pa.Schema, column: str, crs: str | None) -> None:
+        self.column, self.crs = column, crs
+        taken = {*schema.names}
+        self.covering = next(name for name in numbered("bbox") if name not in taken)
+        schema = schema.remove_metadata().append(pa.field(self.covering, BOX))
+        self.kinds: set[Kind] = set()
+        self.types: set[str] = set()
+        self.bounds: list[Floats] = []
+        self.held: list[pa.Table] = []
+        self.n_held = self.n_bytes = 0
+        # The schema that Arrow would store at once is stored last, with what is known by then.
+        self.schema = schema
+        self.file = pq.ParquetWriter(path, schema, store_schema=False)
+
+    def write(self, table: pa.Table) -> None:
+        """Add features: attributes and WKB."""
+        wkb = table[self.column].combine_chunks()
+        geometries = shapely.from_wkb(wkb.to_numpy(zero_copy_only=False))
+        self.kinds |= kinds_of(geometries)
+        there = geometries[~(shapely.is_missing(geometries) | shapely.is_empty(geometries))]
+        self.types |= {kind + " Z" * has_z for kind, has_z, _ in kinds_of(there)}
+        boxes = shapely.bounds(geometries)
+        if there.size:
+            self.bounds.append(shapely.total_bounds(there))
+        table = table.append_column(pa.field(self.covering, BOX), box_column(boxes))
+        sizes = pc.fill_null(pc.binary_length(wkb), 0).to_numpy(zero_copy_only=False)
+        first = 0
+        for stop in self.stops(sizes):
+            self.hold(table.slice(first, stop - first))
+            self.flush()
+            first = stop
+        self.hold(table.slice(first))
+
+    def stops(self, sizes: "NDArray[Any]") -> list[int]:
+        """Rows of a table before which a row group ends; counts what the last one holds."""
+        stops = []
+        for row, size in enumerate(sizes.tolist()):
+            if self.n_held and (self.n_held >= GROUP_ROWS or self.n_bytes + size > GROUP_BYTES):
+                stops.append(row)
+                self.n_held = self.n_bytes = 0
+            self.n_held += 1
+            self.n_bytes += size
+        return stops
+
+    def hold(self, table: pa.Table) -> None:
+        """Keep rows until their row group is whole."""
+        if table.num_rows:
+            self.held.append(table)
+
+    def flush(self) -> None:
+        """Write what is held as a row group."""
+        if self.held:
+            table = pa.concat_tables(self.held).combine_chunks()
+            self.held = []
+            self.file.write_table(table.cast(self.schema), row_group_size=table.num_rows)
+
+    def close(self, **more: str) -> None:
+        """Write the last row group and the metadata, with ``more`` of it."""
+        self.flush()
+        about: dict[str, Any] = {
+            "encoding": "WKB",
+            "geometry_types": sorted(self.types),
+            "crs": None if self.crs is None else json.loads(self.crs),
+            "covering": {"bbox": {corner: [self.covering, corner] for corner in CORNERS}},
+        }
+        if self.bounds:
+            about["bbox"] = shapely.total_bounds(shapely.box(*np.transpose(self.bounds))).tolist()
+        geo = {"version": VERSION, "primary_column": self.column, "columns": {self.column: about}}
+        metadata = {"geo": json.dumps(geo), **more}
+        schema = self.schema.with_metadata(metadata).serialize().to_pybytes()
+        metadata["ARROW:schema"] = base64.b64encode(schema).decode()
+        self.file.add_key_value_metadata(metadata)
+        self.file.close()
 
 
-def kinds_of(geometries: "Geometries") -> list[str]:
-    """Names of the kinds of geometry that are not empty, with " Z" where they have heights."""
-    return sorted({g.geom_type + " Z" * g.has_z for g in geometries if g})
+def numbered(name: str) -> Iterator[str]:
+    """Give a name, and the name with numbers from 2 on."""
+    yield name
+    yield from (f"{name}_{number}" for number in count(2))
+
+
+def box_column(boxes: "Floats") -> pa.Array:
+    """Column of boxes, null where there is none."""
+    is_missing = np.isnan(boxes).any(axis=1)
+    columns = [pa.array(column) for column in boxes.T]
+    return pa.StructArray.from_arrays(columns, fields=[*BOX], mask=pa.array(is_missing))
+
+
+def kinds_of(geometries: "Geometries") -> "set[Kind]":
+    """Kinds of geometry that there are: name, whether with Z, whether with M."""
+    there = geometries[~shapely.is_missing(geometries)]
+    codes = shapely.get_type_id(there) * 4 + shapely.has_z(there) * 2 + shapely.has_m(there)
+    _, first = np.unique(codes, return_index=True)
+    return {(g.geom_type, bool(g.has_z), bool(g.has_m)) for g in there[first]}

@@ -21,11 +21,15 @@ from midrib.formats.endings import PARQUET
 from midrib.formats.geoparquet import geo_column
 
 __all__ = [
+    "BUFFER",
+    "PARQUET_ENDINGS",
     "Batch",
     "Geometries",
     "Source",
     "choose_layer",
     "column_names",
+    "count_features",
+    "decoded",
     "driver_of",
     "layer_names",
     "open_layer",
@@ -41,7 +45,12 @@ UNREADABLE = (
     pyogrio.errors.DataSourceError,
     pyogrio.errors.DataLayerError,
 )
+BUFFER = 1_000_000  # bytes of a column read at a time, else a whole row group is
 EXTENSION = b"ARROW:extension:metadata"
+
+
+Rows: TypeAlias = tuple[int, int | None]  # the first of them, and how many; None for all
+ALL: Rows = (0, None)
 
 
 class Batch(NamedTuple):
@@ -176,8 +185,10 @@ def may_hold_areas(kind: str | None) -> bool:
 
 
 @contextmanager
-def open_layer(path: Path, layer: str, *, batch_size: int = BATCH) -> Iterator[Source]:
-    """Open one layer, one of ``layer_names(path)``.
+def open_layer(
+    path: Path, layer: str, *, batch_size: int = BATCH, rows: Rows = ALL
+) -> Iterator[Source]:
+    """Open one layer, one of ``layer_names(path)``, or some rows of it: first row and number.
 
     Raises
     ------
@@ -187,7 +198,7 @@ def open_layer(path: Path, layer: str, *, batch_size: int = BATCH) -> Iterator[S
     opened = open_parquet if path.suffix.lower() in PARQUET_ENDINGS else open_vector
     with ExitStack() as stack:
         try:
-            source = stack.enter_context(opened(path, layer, batch_size))
+            source = stack.enter_context(opened(path, layer, batch_size, rows))
         except UNREADABLE as error:
             msg = f"IN {str(path)!r} cannot be read: {error}"
             raise ParameterError(msg) from error
@@ -204,9 +215,9 @@ def checked_stream(stream: Iterator[pa.RecordBatch], path: Path) -> Iterator[pa.
 
 
 @contextmanager
-def open_parquet(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
+def open_parquet(path: Path, layer: str, batch_size: int, rows: Rows) -> Iterator[Source]:
     """Open a GeoParquet file."""
-    with pq.ParquetFile(path) as file:
+    with pq.ParquetFile(path, buffer_size=BUFFER) as file:
         schema = file.schema_arrow
         column = geo_column(schema.metadata, path)
         dropped = (column.name, column.covering)
@@ -218,12 +229,34 @@ def open_parquet(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
             column.kind,
             column.crs,
             file.metadata.num_rows,
-            file.iter_batches(batch_size, columns=[*names, column.name]),
+            parquet_batches(file, batch_size, [*names, column.name], rows),
         )
 
 
+def parquet_batches(
+    file: pq.ParquetFile, batch_size: int, names: list[str], rows: Rows
+) -> Iterator[pa.RecordBatch]:
+    """Read some rows of a Parquet file; row groups without any of them are not read."""
+    first, count = rows
+    last = file.metadata.num_rows if count is None else first + count
+    groups, start = [], 0
+    for k in range(file.num_row_groups):
+        stop = start + file.metadata.row_group(k).num_rows
+        if start < last and stop > first:
+            groups.append((k, start))
+        start = stop
+    position = groups[0][1] if groups else 0
+    for batch in file.iter_batches(batch_size, row_groups=[k for k, _ in groups], columns=names):
+        low, high = max(first - position, 0), min(last - position, batch.num_rows)
+        position += batch.num_rows
+        if high > low:
+            yield batch.slice(low, high - low)
+        if position >= last:
+            return
+
+
 @contextmanager
-def open_vector(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
+def open_vector(path: Path, layer: str, batch_size: int, rows: Rows) -> Iterator[Source]:
     """Open a layer of a file that GDAL reads."""
     # GDAL's own Arrow stream of FlatGeobuf (3.12) breaks at a missing geometry; the generic one
     # does not.
@@ -233,7 +266,12 @@ def open_vector(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
         with without_m():
             count = pyogrio.read_info(path, layer=layer)["features"]
             reading = pyogrio.open_arrow(
-                path, layer=layer, batch_size=batch_size, use_pyarrow=True, **options
+                path,
+                layer=layer,
+                skip_features=rows[0],
+                batch_size=batch_size,
+                use_pyarrow=True,
+                **options,
             )
             meta, reader = stack.enter_context(reading)
         geometry = meta["geometry_name"] or "wkb_geometry"
@@ -249,8 +287,27 @@ def open_vector(path: Path, layer: str, batch_size: int) -> Iterator[Source]:
             (meta["geometry_type"] or "Unknown").removesuffix(" Z").removeprefix("2.5D "),
             crs if crs is None else json.dumps(crs),
             count if count >= 0 else None,
-            iter(reader),
+            first_rows(reader, rows[1]),
         )
+
+
+def first_rows(batches: Iterable[pa.RecordBatch], count: int | None) -> Iterator[pa.RecordBatch]:
+    """End a stream after so many rows: pyogrio's can begin anywhere, but ends with the layer."""
+    for batch in batches:
+        if count is not None and batch.num_rows >= count:
+            yield batch.slice(0, count)
+            return
+        yield batch
+        count = None if count is None else count - batch.num_rows
+
+
+def count_features(path: Path, layer: str) -> int:
+    """Count the features of a layer, however long that takes."""
+    if path.suffix.lower() in PARQUET_ENDINGS:
+        return int(pq.read_metadata(path).num_rows)
+    with without_m():
+        info = pyogrio.read_info(path, layer=layer, force_feature_count=True)
+    return int(info["features"])
 
 
 @contextmanager

@@ -1,7 +1,7 @@
 """Features to files: whole or not at all."""
 
 import warnings
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyogrio
 import pyogrio.errors
 import shapely
@@ -16,35 +17,25 @@ import shapely
 from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.endings import DECIMALS, FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
-from midrib.formats.geoparquet import write_parquet
+from midrib.formats.fitting import distinct_names, fit, fitted
+from midrib.formats.geoparquet import GeoParquetWriter, Kind, kinds_of
 from midrib.formats.reading import Geometries
 from midrib.formats.units import is_wgs84
 
 __all__ = [
     "KINDS",
     "Features",
+    "Layer",
     "check_free",
-    "free_name",
     "one_kind_each",
     "staged",
     "write_layer",
+    "write_tables",
 ]
 
 # WKT, in which CSV holds geometries; GDAL looks at it once, before it writes the first.
 pyogrio.set_gdal_config_options({"OGR_WKT_PRECISION": DECIMALS})
-# What pyogrio calls a kind of geometry, by whether it has Z and M.
-NAMES = {
-    (False, False): "{}",
-    (True, False): "{} Z",
-    (False, True): "Measured {}",
-    (True, True): "Measured 3D {}",
-}
 CATALOGUE = "a00000001.gdbtable"  # the first table of every geodatabase
-BUILDERS = {  # of the multiple kinds
-    "Point": shapely.multipoints,
-    "LineString": shapely.multilinestrings,
-    "Polygon": shapely.multipolygons,
-}
 # Kinds of geometry that go into a layer together, by what is added to its name.
 KINDS = {
     "": ("Polygon", "MultiPolygon"),
@@ -62,6 +53,17 @@ class Features(NamedTuple):
     geometry: str  # name of the column
     kind: str  # of geometry, where none is there to tell
     crs: str | None
+
+
+class Layer(NamedTuple):
+    """What is known of a layer before its features are there."""
+
+    name: str
+    attributes: pa.Schema
+    geometry: str  # name of the column
+    kind: str  # of geometry, where none is there to tell
+    crs: str | None
+    kinds: frozenset[Kind]  # that there are
 
 
 def check_free(paths: Sequence[Path], name: str, *, overwrite: bool) -> None:
@@ -144,35 +146,73 @@ def write_layer(path: Path, features: Features) -> list[str]:
     ParameterError
         If the format cannot hold the features.
     """
+    wkb = pa.array(shapely.to_wkb(features.geometries, flavor="iso"), type=pa.binary())
+    schema, kinds = features.attributes.schema, kinds_of(features.geometries)
+    layer = Layer(
+        features.layer, schema, features.geometry, features.kind, features.crs, frozenset(kinds)
+    )
+    names = [*schema.names, features.geometry]
+    table = pa.table([*features.attributes.columns, wkb], names=names)
+    return write_tables(path, layer, lambda: iter([table]))
+
+
+def write_tables(path: Path, layer: Layer, tables: Callable[[], Iterable[pa.Table]]) -> list[str]:
+    """Write a layer that comes table by table, as ``write_layer`` does.
+
+    Each call of ``tables`` walks through them from the first: attributes, and WKB as the last
+    column. One of them is held in memory at a time; of Parquet a row group.
+    """
     target = format_of(path)
-    if target.is_drawing:
-        there = features.geometries[~shapely.is_missing(features.geometries)]
-        features = features._replace(attributes=pa.table({}), geometries=there)
-    geometries, notes = with_even_heights(features.geometries, target)
-    geometries, kind = uniform(geometries, features.kind)
-    wkb = pa.array(shapely.to_wkb(geometries, flavor="iso"), type=pa.binary())
-    names, renamed = distinct_names(features, target)
-    notes += renamed
-    columns = dict(zip(names, features.attributes.columns, strict=True))
-    table = pa.table({**columns, features.geometry: wkb})
+    wanted, notes = fit(layer.kinds, layer.kind, target)
+    names: list[str] = []
+    if not target.is_drawing:
+        numbering = [
+            name
+            for k, name in enumerate(layer.attributes.names)
+            if name.lower() == target.identifier and is_numbering(table[k] for table in tables())
+        ]
+        names, renamed = distinct_names(layer.attributes.names, layer.geometry, target, numbering)
+        notes += renamed
+    types = layer.attributes.types[: len(names)]
+    schema = pa.schema([*zip(names, types, strict=True), (layer.geometry, pa.binary())])
+
+    def fitting() -> Iterator[pa.Table]:
+        for table in tables():
+            *columns, wkb = table.columns
+            wkb = fitted(wkb, wanted)
+            whole = pa.table([*columns[: len(names)], wkb], schema=schema)
+            yield whole.filter(pc.is_valid(wkb)) if target.is_drawing else whole
+
     if target.driver == PARQUET:
-        write_parquet(path, table, features.geometry, features.crs)
+        writer = GeoParquetWriter(path, schema, layer.geometry, layer.crs)
+        for table in fitting():
+            writer.write(table)
+        writer.close()
         return notes
-    notes += changes(features, target)
+    notes += changes(layer, target)
     lost = ["attributes"] * target.is_drawing
-    lost += ["a CRS"] * (features.crs is not None and not target.has_crs)
+    lost += ["a CRS"] * (layer.crs is not None and not target.has_crs)
     notes += [f"{target.driver} has no place for {what}" for what in lost]
+    batches = (batch for table in fitting() for batch in table.to_batches())
+    reader = pa.RecordBatchReader.from_batches(schema, batches)
+    return notes + write_by_gdal(path, layer, target, wanted.kind, reader)
+
+
+def write_by_gdal(
+    path: Path, layer: Layer, target: Format, kind: str, reader: pa.RecordBatchReader
+) -> list[str]:
+    """Write batches by a driver of GDAL, and return what it has to say."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
             pyogrio.write_arrow(
-                table,
+                reader,
                 path,
-                layer=features.layer,
+                layer=layer.name,
                 driver=target.driver,
-                geometry_name=features.geometry,
+                geometry_name=layer.geometry,
                 geometry_type=kind,
-                crs=features.crs,
+                crs=layer.crs,
                 layer_options=dict(target.options),
             )
         except (
@@ -186,90 +226,29 @@ def write_layer(path: Path, features: Features) -> list[str]:
             msg = f"OUT {path.name!r} cannot be written as {target.driver}: {error}"
             raise ParameterError(msg) from error
     said = dict.fromkeys(str(w.message) for w in caught)
-    return notes + [text for text in said if not text.startswith("'crs' was not provided")]
+    return [text for text in said if not text.startswith("'crs' was not provided")]
 
 
-def changes(features: Features, target: Format) -> list[str]:
+def changes(layer: Layer, target: Format) -> list[str]:
     """Say what a format does to coordinates."""
-    if shapely.is_missing(features.geometries).all():
+    if not layer.kinds:
         return []
     notes = []
-    if target.is_global and features.crs is not None and not is_wgs84(features.crs):
+    if target.is_global and layer.crs is not None and not is_wgs84(layer.crs):
         notes.append(f"{target.driver} turns coordinates into longitude and latitude")
     if target.rounds:
         notes.append(f"{target.driver} rounds coordinates, so that lines may leave their areas")
     return notes
 
 
-def distinct_names(features: Features, target: Format) -> tuple[list[str], list[str]]:
-    """Names of the attributes that the format tells apart, and notes about new ones.
-
-    Formats other than Parquet take names that differ only by case for one, or refuse the second;
-    some write its values into the first.
-    """
-    fold: Callable[[str], str] = str if target.driver == PARQUET else str.lower
-    taken = {fold(features.geometry)}
-    table = features.attributes
-    for name, column in zip(table.column_names, table.columns, strict=True):
-        if fold(name) == target.identifier and not is_numbering(column):
-            taken.add(fold(name))
-    names: list[str] = []
-    for name in table.column_names:
-        new = name
-        if fold(name) in taken:
-            new = free_name(name, taken | {fold(known) for known in table.column_names}, fold)
-        taken.add(fold(new))
-        names.append(new)
-    pairs = zip(table.column_names, names, strict=True)
-    return names, [f"the field {old!r} is written as {new!r}" for old, new in pairs if old != new]
-
-
-def is_numbering(column: pa.ChunkedArray) -> bool:
+def is_numbering(chunks: Iterable[pa.ChunkedArray]) -> bool:
     """Whether a column can number features: whole numbers, each once."""
+    column = pa.chunked_array([chunk for some in chunks for chunk in some.chunks] or [[]])
     return (
         pa.types.is_integer(column.type)
         and column.null_count == 0
         and len(column.unique()) == len(column)
     )
-
-
-def free_name(name: str, taken: Collection[str], fold: Callable[[str], str] = str.lower) -> str:
-    """Return a name, numbered on where it is taken: ``length_2``."""
-    free, number = name, 2
-    while fold(free) in taken:
-        free, number = f"{name}_{number}", number + 1
-    return free
-
-
-def uniform(geometries: Geometries, default: str) -> tuple[Geometries, str]:
-    """Geometries of one kind and its name: single ones become multi where both occur."""
-    there = geometries[~shapely.is_missing(geometries)]
-    kinds = {geometry.geom_type for geometry in there}
-    dimensions = set(zip(shapely.has_z(there), shapely.has_m(there), strict=True))
-    if not kinds:
-        return geometries, default
-    if len({kind.removeprefix("Multi") for kind in kinds}) > 1 or len(dimensions) > 1:
-        return geometries, "Unknown"
-    name = NAMES[dimensions.pop()]
-    if len(kinds) == 1:
-        return geometries, name.format(kinds.pop())
-    multi = geometries.copy()
-    build = BUILDERS[min(kinds, key=len)]
-    for i, geometry in enumerate(geometries):
-        if geometry is not None and not geometry.geom_type.startswith("Multi"):
-            multi[i] = build([geometry])
-    return multi, name.format(max(kinds, key=len))
-
-
-def with_even_heights(geometries: Geometries, target: Format) -> tuple[Geometries, list[str]]:
-    """Geometries all with Z or all without, if the format asks for that, and a note about it."""
-    there = ~shapely.is_missing(geometries)
-    has_z = shapely.has_z(geometries)
-    if not target.has_one_kind or not 0 < has_z.sum() < there.sum():
-        return geometries, []
-    even = geometries.copy()
-    even[there & ~has_z] = shapely.force_3d(geometries[there & ~has_z], 0.0)
-    return even, [f"{target.driver} has a Z for all or for none, it is 0 where there was none"]
 
 
 def one_kind_each(features: Features, target: Format) -> tuple[dict[str, Features], list[str]]:

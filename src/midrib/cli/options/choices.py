@@ -7,6 +7,7 @@ __all__ = [
     "Channel",
     "DrawingRule",
     "EndRule",
+    "Engine",
     "Holes",
     "Letter",
     "Mean",
@@ -18,6 +19,14 @@ __all__ = [
     "WidthPlace",
     "chosen",
 ]
+
+
+class Engine(StrEnum):
+    """What does the work."""
+
+    local = "local"
+    dask = "dask"
+    spark = "spark"
 
 
 class EndRule(StrEnum):

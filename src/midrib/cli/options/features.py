@@ -14,6 +14,7 @@ __all__ = [
     "History",
     "Identifier",
     "Layer",
+    "LinesOrParts",
     "LinesOut",
     "Main",
     "OneFeature",
@@ -22,6 +23,7 @@ __all__ = [
     "Scale",
     "SlopesIn",
     "Source",
+    "Sources",
     "Standard",
     "Start",
     "StationSpacing",
@@ -32,6 +34,19 @@ __all__ = [
 ]
 
 Source: TypeAlias = Annotated[Path, argument(metavar="IN", help="Vector file with areas.")]
+Sources: TypeAlias = Annotated[
+    Path,
+    argument(metavar="IN", help="Vector file with areas, or a folder of .parquet files alike."),
+]
+LinesOrParts: TypeAlias = Annotated[
+    Path,
+    argument(
+        metavar="OUT",
+        help="File for the lines; its ending chooses the format: .gpkg .parquet .fgb .geojson "
+        ".shp .gml .csv .dxf … Without an ending a folder for parts of GeoParquet: what an "
+        "interrupted run has finished there is kept.",
+    ),
+]
 LinesOut: TypeAlias = Annotated[
     Path,
     argument(

@@ -8,6 +8,7 @@ __all__ = [
     "argument",
     "of_care",
     "of_check",
+    "of_engine",
     "of_layers",
     "of_line",
     "of_output",
@@ -24,4 +25,5 @@ of_strokes = partial(typer.Option, rich_help_panel="How strokes are made, length
 of_line = partial(typer.Option, rich_help_panel="How the line is made")
 of_care = partial(typer.Option, rich_help_panel="After-care")
 of_tower = partial(typer.Option, rich_help_panel="How the axis is found")
+of_engine = partial(typer.Option, rich_help_panel="Where the work is done")
 of_output = partial(typer.Option, rich_help_panel="Output")
