@@ -7,8 +7,9 @@ import pyarrow as pa
 import shapely
 
 from midrib import measures
-from midrib.cli.job import add_refused, numbers, statuses, with_columns
+from midrib.cli.job import add_refused, with_columns
 from midrib.curves.skeleton import skeleton
+from midrib.engines.batches import numbers, statuses
 from midrib.formats.units import is_geographic
 from midrib.profiles import with_m
 
@@ -33,7 +34,7 @@ def skeleton_layer(
         batch.geometries, method, on_error="report", geographic=geographic, **options
     )
     refused = dict(batch.unreadable)
-    status = statuses(batch, problems, refused)
+    status = statuses(batch.geometries, problems, refused)
     lines, row, number, radius, ends = [], [], [], [], []
     for i, one in enumerate(found):
         if one is None:
