@@ -37,7 +37,7 @@ def test_points_are_vertices_of_the_line(midrib: Runner, tmp_path: Path) -> None
     _, rows, points = read_all(out)
     assert {point.geom_type for point in points} == {"Point"}
     feature = rows["number"].to_numpy()
-    assert np.bincount(feature).tolist() == [2, 3]
+    assert np.bincount(feature).tolist() == [3, 3]
     line = shapely.LineString(points[feature == 1])
     assert shapely.from_wkt(BENT).covers(line)
     assert (np.diff(rows["vertex"].to_numpy()[feature == 1]) > 0).all()
