@@ -54,10 +54,10 @@ def test_a_part_that_fails_leaves_nothing_and_the_others_stay(
     job = job_on(source, tmp_path / "lines")
     collapse_batch = batches.collapse_batch
 
-    def fail(batch: object, recipe: object, first: int) -> object:
+    def fail(batch: object, recipe: object, first: int, threads: int | None) -> object:
         if first == 55:
             raise OSError("the network is gone")
-        return collapse_batch(batch, recipe, first)  # type: ignore[arg-type]
+        return collapse_batch(batch, recipe, first, threads)  # type: ignore[arg-type]
 
     monkeypatch.setattr(parts, "collapse_batch", fail)
     with pytest.raises(OSError, match="the network is gone"):

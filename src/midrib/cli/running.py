@@ -80,7 +80,7 @@ class Machines(NamedTuple):
             return spark.run(work, partitions, said, master=self.master)
         from midrib.engines import local
 
-        return local.run(work, partitions, said, workers=self.workers or 1)
+        return local.run(work, partitions, said, workers=self.workers)
 
     def rows(self, count: int | None) -> int | None:
         """Features of a partition, if that is for us to choose: None for all of a file."""

@@ -71,7 +71,9 @@ class Collapsed(NamedTuple):
     counts: Counts
 
 
-def collapse_batch(areas: pa.RecordBatch, recipe: "Recipe", first: int = 0) -> Collapsed:
+def collapse_batch(
+    areas: pa.RecordBatch, recipe: "Recipe", first: int = 0, threads: int | None = 1
+) -> Collapsed:
     """Collapse the areas of a batch.
 
     Parameters
@@ -82,6 +84,8 @@ def collapse_batch(areas: pa.RecordBatch, recipe: "Recipe", first: int = 0) -> C
         What to make of them.
     first : int, default 0
         Number of features of the layer before the batch, for guides that go by it.
+    threads : int or None, default 1
+        Those of ``midrib.collapse``; where processes share a machine one each is enough.
 
     Returns
     -------
@@ -97,6 +101,7 @@ def collapse_batch(areas: pa.RecordBatch, recipe: "Recipe", first: int = 0) -> C
         on_error="report",
         along=along,
         geographic=recipe.geographic,
+        threads=threads,
         **recipe.options,
     )
     lines[shapely.is_empty(lines)] = None

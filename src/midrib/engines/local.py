@@ -23,14 +23,17 @@ POLL = 0.2  # seconds between two looks for an interrupt
 
 
 def run(
-    work: Work, partitions: list[Partition], said: Callable[[int], None], *, workers: int
+    work: Work, partitions: list[Partition], said: Callable[[int], None], *, workers: int | None
 ) -> Iterator[Done]:
-    """Make the parts of partitions, in any order; ``said`` hears of features that are done."""
-    if workers == 1 or len(partitions) < 2:
+    """Make the parts of partitions, in any order; ``said`` hears of features that are done.
+
+    None stands for one process that uses every processor it may, by threads.
+    """
+    if workers in {None, 1} or len(partitions) < 2:
         for partition in partitions:
-            yield make_part(work, partition, said)
+            yield make_part(work, partition, said, workers)
         return
-    for done in run_in_processes(work, partitions, min(workers, len(partitions))):
+    for done in run_in_processes(work, partitions, min(workers or 1, len(partitions))):
         said(done.counts.features)
         yield done
 

@@ -75,12 +75,15 @@ class Done(NamedTuple):
 
 
 def make_part(
-    work: Work, partition: Partition, said: Callable[[int], None] = lambda _: None
+    work: Work,
+    partition: Partition,
+    said: Callable[[int], None] = lambda _: None,
+    threads: int | None = 1,
 ) -> Done:
     """Collapse the areas of a partition and write its part, whole or not at all.
 
     Reading and writing go on in threads of their own; a few batches are in memory at a time.
-    ``said`` hears the number of features of each batch that is done.
+    ``said`` hears the number of features of each batch that is done; so many threads make it.
     """
     started = time.perf_counter()
     counts = Counts()
@@ -88,7 +91,7 @@ def make_part(
         batches = ahead(batches_of(partition))
         for first, batch in batches:
             interrupts.check()
-            collapsed = collapse_batch(batch, work.recipe, first)
+            collapsed = collapse_batch(batch, work.recipe, first, threads)
             counts.add(collapsed.counts)
             write(collapsed)
             said(batch.num_rows)

@@ -22,7 +22,8 @@ Workers: TypeAlias = Annotated[
         "--workers",
         metavar="N",
         min=1,
-        help="Processes on this machine; one unless you say otherwise, of Dask one a core.",
+        help="Processes on this machine, of one thread each; one process with a thread for each "
+        "core unless you say otherwise, of Dask a process for each core.",
     ),
 ]
 Scheduler: TypeAlias = Annotated[
