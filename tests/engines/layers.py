@@ -66,7 +66,8 @@ def recipe_of(path: Path, **options: object) -> Recipe:
 def batch_of(path: Path) -> pa.RecordBatch:
     """All areas of a file in one batch."""
     with open_layer(path, choose_layer(path, None), batch_size=1_000_000) as source:
-        (batch,) = source.stream
+        table = pa.Table.from_batches(source.stream)
+    (batch,) = table.combine_chunks().to_batches()
     return batch
 
 

@@ -15,6 +15,7 @@ from midrib.engines.batches import Collapsed, Counts, collapse_batch
 from midrib.engines.frames import collapse_rows, frame_recipe
 from midrib.engines.recipe import Recipe
 from midrib.errors import ParameterError
+from midrib.formats.guides import FieldGuides
 from tests.engines.layers import areas, batch_of, recipe_of, write_areas
 
 
@@ -87,6 +88,16 @@ def test_what_cannot_be_read_is_refused_with_the_reason() -> None:
     unreadable, point = found.refused["reason"].to_pylist()
     assert unreadable.startswith("the geometry cannot be read: ")
     assert point.startswith("is a Point, expected a Polygon")
+
+
+def test_an_area_whose_guide_cannot_be_read_is_refused_and_has_no_line() -> None:
+    wkb = pa.array([shapely.box(0, 0, 9, 2).wkb] * 2, type=pa.binary())
+    batch = pa.RecordBatch.from_pydict({"side": ["LINESTRING (0 0, 9 0)", "left"], "wkb": wkb})
+    recipe = Recipe(pa.schema([("side", pa.string())]), "wkb", guides=FieldGuides("side"))
+    found = collapse_batch(batch, recipe)
+    assert found.rows.tolist() == [0]
+    assert found.refused_rows.tolist() == [1]
+    assert found.refused["reason"][0].as_py().startswith("the field 'side' is 'left', expected")
 
 
 def test_frames_keep_their_rows_and_say_why_a_line_is_missing(source: Path) -> None:

@@ -85,6 +85,17 @@ def test_what_was_being_written_is_removed(
     assert not list(job.folder.glob(".part*"))
 
 
+def test_parts_of_another_job_are_made_anew(
+    source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    job, other = job_on(source, tmp_path / "lines"), job_on(source, tmp_path / "other", spacing=9.0)
+    run(job)
+    run(other)
+    other.work.lines(2).replace(job.work.lines(2))
+    assert run(job) == [2]
+    assert contents(job.folder) == expected
+
+
 def test_other_options_or_input_are_another_job(source: Path, tmp_path: Path) -> None:
     copy = tmp_path / "in.parquet"
     copy.write_bytes(source.read_bytes())

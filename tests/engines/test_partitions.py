@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -19,7 +20,7 @@ from midrib.engines.partitions import (
     small_groups,
 )
 from midrib.errors import ParameterError
-from midrib.formats.reading import choose_layer
+from midrib.formats.reading import choose_layer, parquet_batches
 from tests.engines.layers import batch_of, write_areas
 
 
@@ -51,6 +52,19 @@ def test_partitions_have_every_row_once(ending: str, rows: int | None, tmp_path:
         assert start == first
         assert rows is None or batch.num_rows <= rows
         first += batch.num_rows
+
+
+def test_row_groups_that_have_been_read_do_not_stay_in_memory(tmp_path: Path) -> None:
+    n = 40_000
+    random = np.random.default_rng(1)
+    wkb = pa.array([random.bytes(256) for _ in range(n)], type=pa.binary())
+    pq.write_table(pa.table({"geom": wkb}), tmp_path / "in", row_group_size=2_000)
+    del wkb
+    before = peak = pa.total_allocated_bytes()
+    with pq.ParquetFile(tmp_path / "in") as file:
+        for _ in parquet_batches(file, 100, ["geom"]):
+            peak = max(peak, pa.total_allocated_bytes())
+    assert peak - before < 0.2 * n * 256
 
 
 def test_a_file_of_nothing_has_a_partition_of_nothing(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ from midrib.engines.overlap import ahead, behind
 from midrib.engines.partitions import BATCH_ROWS, Partition, batches_of
 from midrib.engines.recipe import Recipe
 from midrib.formats.geoparquet import GeoParquetWriter, Kind
-from midrib.formats.reading import BUFFER
+from midrib.formats.reading import BUFFER, parquet_batches
 
 __all__ = ["REFUSED", "Done", "Work", "kinds_in", "make_part", "remove_unfinished", "tables_of"]
 
@@ -61,7 +61,7 @@ class Work:
     def finished(self, number: int) -> Counts | None:
         """Return counts of a part that is there and of this job, else None."""
         footer = read_footer(self.lines(number))
-        if footer.get("job") != self.key:
+        if not footer:
             return None
         return Counts(**{name: footer[name] for name in vars(Counts())})
 
@@ -171,5 +171,5 @@ def tables_of(paths: Iterable[Path]) -> Iterator[pa.Table]:
     for path in paths:
         with pq.ParquetFile(path, buffer_size=BUFFER) as file:
             names = file.schema_arrow.names[:-1]  # the last column has the boxes
-            for batch in file.iter_batches(BATCH_ROWS, columns=names):
+            for batch in parquet_batches(file, BATCH_ROWS, names):
                 yield pa.Table.from_batches([batch])

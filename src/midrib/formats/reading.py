@@ -33,6 +33,7 @@ __all__ = [
     "driver_of",
     "layer_names",
     "open_layer",
+    "parquet_batches",
 ]
 
 Geometries: TypeAlias = "np.ndarray[tuple[int], np.dtype[np.object_]]"
@@ -234,25 +235,23 @@ def open_parquet(path: Path, layer: str, batch_size: int, rows: Rows) -> Iterato
 
 
 def parquet_batches(
-    file: pq.ParquetFile, batch_size: int, names: list[str], rows: Rows
+    file: pq.ParquetFile, batch_size: int, names: list[str], rows: Rows = ALL
 ) -> Iterator[pa.RecordBatch]:
     """Read some rows of a Parquet file; row groups without any of them are not read."""
     first, count = rows
     last = file.metadata.num_rows if count is None else first + count
-    groups, start = [], 0
+    position = 0
     for k in range(file.num_row_groups):
-        stop = start + file.metadata.row_group(k).num_rows
-        if start < last and stop > first:
-            groups.append((k, start))
-        start = stop
-    position = groups[0][1] if groups else 0
-    for batch in file.iter_batches(batch_size, row_groups=[k for k, _ in groups], columns=names):
-        low, high = max(first - position, 0), min(last - position, batch.num_rows)
-        position += batch.num_rows
-        if high > low:
-            yield batch.slice(low, high - low)
-        if position >= last:
-            return
+        n_rows = file.metadata.row_group(k).num_rows
+        if position >= last or position + n_rows <= first:
+            position += n_rows
+            continue
+        # A walk through several row groups (Arrow 26) keeps all of them in memory to its end.
+        for batch in file.iter_batches(batch_size, row_groups=[k], columns=names):
+            low, high = max(first - position, 0), min(last - position, batch.num_rows)
+            position += batch.num_rows
+            if high > low:
+                yield batch.slice(low, high - low)
 
 
 @contextmanager
