@@ -101,7 +101,7 @@ def page(results: dict[str, Any]) -> str:
     labels = {"yardstick": "shapely: load, validate, write", "threads 1": "midrib, one thread"}
     rows = [
         [
-            labels.get(name, f"midrib, {name.split()[1]} threads"),
+            labels.get(name, f"midrib, {name[-1]} threads"),
             *(f"{row[clock] * 1e6:.1f}" for clock in ("cpu", "wall")),
             f"{row['cpu'] / own['cpu']:.1f}",
         ]
