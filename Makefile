@@ -29,6 +29,7 @@ lint: $(VENV)/ready
 bench: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r constraints-bench.txt
 	$(BIN)/python benchmarks/speed.py
+	$(BIN)/python benchmarks/batch.py
 	$(BIN)/python benchmarks/methods.py
 	$(BIN)/python benchmarks/scale.py
 	$(BIN)/python benchmarks/scoreboard.py
