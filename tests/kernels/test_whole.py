@@ -26,6 +26,24 @@ def total(values: Floats, k: int) -> float:
     return 0.0 if k == values.size else values[k] + total(values, k + 1)
 
 
+@njit()
+def doubled(values: Floats) -> Floats:
+    """Return the values twice; what np.concatenate may raise has a helper, as below."""
+    return np.concatenate((values, values))
+
+
+@njit()
+def tripled(values: Floats) -> Floats:
+    """Return the values three times."""
+    return np.concatenate((values, values, values))
+
+
+@njit(entry=True)
+def with_helpers(n: int) -> float:
+    """Sum of n sevens, five times."""
+    return float(doubled(sevens(n)).sum() + tripled(sevens(n)).sum())
+
+
 @njit(entry=True)
 def entry(n: int) -> float:
     """Sum of n sevens and of as many zeros."""
@@ -57,6 +75,7 @@ def library_of(kernel: Any) -> Any:
 
 def test_an_entry_comes_to_what_its_parts_do() -> None:
     assert entry(5) == 35.0
+    assert with_helpers(2) == 70.0
     assert other_entry(5) == 63.0
     assert somebody_elses(3) == 6.0
     assert entry(0) == 0.0

@@ -51,6 +51,10 @@ class Part(JITCodeLibrary):
     def finalize(self) -> None:
         """Leave everything to the entry."""
         self._raise_if_finalized()
+        # Parts may bring the same helper of Numba's along, of which one will do.
+        for function in self._final_module.functions:
+            if not function.is_declaration and function.linkage == llvm.Linkage.external:
+                function.linkage = llvm.Linkage.linkonce_odr
         self._finalize_dynamic_globals()
         self._finalized = True
 
@@ -64,15 +68,14 @@ class Part(JITCodeLibrary):
         self._ensure_finalized()
         if self._linked is None:
             self._linked = self._final_module.clone()
-            for name in link_parts(self._linked, self):
-                self._linked.get_function(name).linkage = llvm.Linkage.linkonce_odr
+            link_parts(self._linked, self)
         return self._linked
 
 
-def link_parts(module: Any, library: Any) -> list[str]:
+def link_parts(module: Any, library: Any) -> set[str]:
     """Link what a library calls into a module, each once; return the names of parts' functions."""
     waiting, seen = [library], set()
-    names = [] if not isinstance(library, Part) else defined(library)
+    names: set[str] = set()
     while waiting:
         for called in waiting.pop()._linking_libraries:
             if called in seen:
@@ -81,20 +84,18 @@ def link_parts(module: Any, library: Any) -> list[str]:
             library._reload_init.update(called._reload_init)
             if isinstance(called, Part):
                 module.link_in(called._final_module, preserve=True)
-                names += defined(called)
+                names |= defined(called)
                 waiting.append(called)
             else:
                 module.link_in(called._get_module_for_linking(), preserve=True)
     return names
 
 
-def defined(part: Part) -> list[str]:
+def defined(part: Part) -> set[str]:
     """Names of the functions of a part that others can call."""
-    return [
-        f.name
-        for f in part._final_module.functions
-        if not f.is_declaration and f.linkage == llvm.Linkage.external
-    ]
+    shared = llvm.Linkage.linkonce_odr
+    functions = part._final_module.functions
+    return {f.name for f in functions if not f.is_declaration and f.linkage == shared}
 
 
 class Whole(JITCodeLibrary):
@@ -104,8 +105,9 @@ class Whole(JITCodeLibrary):
         """Link the tree of parts, each once, and make machine code of it."""
         names = link_parts(self._final_module, self)
         # Nobody else calls them: what is called once is inlined, what is inlined is dropped.
-        for name in names:
-            self._final_module.get_function(name).linkage = llvm.Linkage.internal
+        for function in self._final_module.functions:
+            if function.name in names and not function.is_declaration:
+                function.linkage = llvm.Linkage.internal
         self._linking_libraries = []
         super().finalize()
         codegen: Any = self._codegen
