@@ -10,8 +10,10 @@ import numpy as np
 import shapely
 from shapely import MultiPolygon, Polygon
 
+from midrib.curves.arms import Crossing, Net, Stretch, arms_of, net_of, passed
 from midrib.curves.graphs import Graph
-from midrib.curves.junctions import Crossing, Net, Stretch, arms_of, crossings_of, hub_of, net_of
+from midrib.curves.hubs import hub_of
+from midrib.curves.junctions import crossings_of
 from midrib.layout import Scale
 from midrib.types import Floats, Ints
 
@@ -123,7 +125,9 @@ def crossing_change(net: Net, crossing: Crossing, ends: Ints, site: Site) -> Cha
     for arm in arms:
         rows = net.branches[arm.branch][:: 1 - 2 * arm.end]
         junction = net.points[rows[0]]
-        for cut, kept in ((arm.cut, arm.kept), arm.spare, (junction, len(rows) - 1)):
+        is_behind = (arm.cut - hub) @ arm.direction > 0.0
+        best = passed(net, arm, hub) if is_behind else (arm.cut, arm.kept)
+        for cut, kept in (best, arm.spare, (junction, len(rows) - 1)):
             points = np.stack([hub, cut][: 1 + (cut != hub).any()]) / site.scale
             if len(points) == 1 or site.covers(points):
                 endings[arm.branch, arm.end] = Ending(points, kept)
