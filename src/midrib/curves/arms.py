@@ -22,7 +22,6 @@ STEADY = 0.95  # an arm is steady that does not lose more of its radius within L
 NARROW = 1.001  # times the least radius of an arm: 0.01 off already turns it by some 5 degrees
 ALONG = 2.0  # radii of an arm over which its direction is taken
 WEAK = 0.02  # of its radius is what an arm says that is in the discs all along
-MOST_TURN = np.radians(45.0)  # of an arm that is led on
 
 
 class Stretch(NamedTuple):
@@ -90,14 +89,6 @@ class Arm(NamedTuple):
     weight: float  # how much it says of where the crossing is
     spare: tuple[Floats, int]  # cut and kept of the next best choice
     reach: tuple[Floats, Floats]  # discs (n, 2) (n,) before the cut and one radius on
-
-    def led_on(self, length: float) -> tuple[Floats, Floats]:
-        """Point and direction so far inwards, bent as the arm is; by half a right angle at most."""
-        turn = np.hypot(*self.bend) * length
-        bend = self.bend * min(1.0, MOST_TURN / turn) if turn > 0.0 else self.bend
-        direction = self.direction + bend * length
-        point: Floats = self.cut + (self.direction + bend * length / 2.0) * length
-        return point, direction / np.hypot(*direction)
 
 
 def net_of(graph: Graph, scale: Scale) -> Net:

@@ -16,14 +16,24 @@ import numpy as np
 from midrib.curves.arms import Arm, Crossing, Net
 from midrib.types import Floats
 
-__all__ = ["hub_of"]
+__all__ = ["bundle_of", "hub_of", "led_on"]
 
 WEAK = 0.02  # of the larger eigenvalue: arms within 8 degrees do not say how far their lines meet
 LED_ON = 4  # times at most, each to the hub of the last one
+MOST_TURN = np.radians(45.0)  # of an arm that is led on
 SETTLED = 2.0**-20  # of the radius: where arms are straight the hub does not move again
 HOLDS = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)  # what the middle weighs, of the weight of arms
 ONE_ROAD = np.radians(30.0)  # two arms that turn less into each other may be one road
 CLEARLY = 2.0  # times as much turns what is not
+
+
+class Bundle(NamedTuple):
+    """The arms of a crossing."""
+
+    cuts: Floats  # (k, 2) from where they are led on
+    directions: Floats  # (k, 2) of unit length, inwards
+    bends: Floats  # (k, 2) how directions change with a unit of length
+    weights: Floats  # (k,)
 
 
 class Lines(NamedTuple):
@@ -46,10 +56,11 @@ def hub_of(net: Net, crossing: Crossing, arms: list[Arm]) -> Floats:
     places = np.concatenate([net.points[rows], *(arm.reach[0] for arm in arms)])
     radius = np.concatenate([net.radius[rows], *(arm.reach[1] for arm in arms)])
     middle = np.average(places[:n], axis=0, weights=radius[:n])
+    bundle = bundle_of(arms)
     for hold in HOLDS:
         hub = middle
         for _ in range(LED_ON):
-            last, hub = hub, meeting(middle, led_on(arms, hub), hold)
+            last, hub = hub, meeting(middle, led_on(bundle, hub), hold)
             if np.abs(hub - last).max() <= SETTLED * radius[0]:
                 break
         if (np.hypot(*(hub - places).T) <= radius).any():
@@ -58,11 +69,22 @@ def hub_of(net: Net, crossing: Crossing, arms: list[Arm]) -> Floats:
     return largest
 
 
-def led_on(arms: list[Arm], hub: Floats) -> Lines:
-    """Lines of arms where they come nearest to a hub."""
-    lines = [arm.led_on(float(np.hypot(*(hub - arm.cut)))) for arm in arms]
-    points, directions = (np.array(column) for column in zip(*lines, strict=True))
-    return Lines(points, directions, np.array([arm.weight for arm in arms]))
+def bundle_of(arms: list[Arm]) -> Bundle:
+    """Arms as arrays."""
+    columns = ((arm.cut, arm.direction, arm.bend, arm.weight) for arm in arms)
+    return Bundle(*(np.array(column) for column in zip(*columns, strict=True)))
+
+
+def led_on(bundle: Bundle, hub: Floats) -> Lines:
+    """Lines of arms as far inwards as a hub is, bent as they are; by half a right angle at most."""
+    away = bundle.cuts - hub
+    length = np.hypot(away[:, 0], away[:, 1])[:, None]
+    turn = np.hypot(bundle.bends[:, 0], bundle.bends[:, 1])[:, None] * length
+    bend = bundle.bends * (MOST_TURN / np.maximum(turn, MOST_TURN)) * length
+    direction = bundle.directions + bend
+    points = bundle.cuts + (bundle.directions + bend / 2.0) * length
+    unit = direction / np.hypot(direction[:, 0], direction[:, 1])[:, None]
+    return Lines(points, unit, bundle.weights)
 
 
 def meeting(middle: Floats, lines: Lines, hold: float) -> Floats:

@@ -17,7 +17,7 @@ GeoInformatica 12, 2008: junctions near each other are one, and roads keep their
 import numpy as np
 
 from midrib.curves.arms import Crossing, Net, arms_of
-from midrib.curves.hubs import hub_of
+from midrib.curves.hubs import bundle_of, hub_of, led_on
 from midrib.types import Ints
 
 __all__ = ["crossings_of"]
@@ -68,9 +68,7 @@ def meets_in_point(net: Net, crossing: Crossing, ends: Ints) -> bool:
     """Whether the arms of a crossing lead to one point, but for a part of their width."""
     arms = arms_of(net, crossing, ends)
     hub = hub_of(net, crossing, arms)
-    for arm in arms:
-        point, direction = arm.led_on(float(np.hypot(*(hub - arm.cut))))
-        off = hub - point
-        if abs(direction[0] * off[1] - direction[1] * off[0]) > MEETING * arm.radius:
-            return False
-    return True
+    lines = led_on(bundle_of(arms), hub)
+    off, (x, y) = hub - lines.points, lines.directions.T
+    astray = np.abs(x * off[:, 1] - y * off[:, 0])
+    return bool((astray <= MEETING * np.array([arm.radius for arm in arms])).all())
