@@ -8,7 +8,7 @@ import shapely
 from shapely import LineString, MultiLineString, Polygon, affinity, box
 
 from midrib import network
-from midrib.curves.hubs import Lines, meeting, through
+from midrib.curves.hubs import Bundle, Lines, led_on, meeting, through
 from tests.skeletons.test_networks import nodes_of, ways_of
 
 LENGTH = 120.0
@@ -114,3 +114,13 @@ def test_the_hub_is_on_the_through_road_though_the_branch_leads_elsewhere() -> N
     assert meeting(np.array([4.0, 1.0]), crooked, 0.0) == pytest.approx((2, 0))
     held = meeting(np.array([4.0, 1.0]), crooked, 1e9)
     assert held == pytest.approx((4, 0))
+
+
+@pytest.mark.parametrize(("bend", "turned"), [(0.0, 0.0), (0.1, 0.5), (10.0, np.pi / 4)])
+def test_arms_are_led_on_along_a_parabola_up_to_half_a_right_angle(
+    bend: float, turned: float
+) -> None:
+    arm = Bundle(np.zeros((1, 2)), np.array([[1.0, 0]]), np.array([[0, bend]]), np.ones(1))
+    led = led_on(arm, np.array([3.0, 4.0]))
+    assert led.points[0] == pytest.approx((5, 2.5 * turned))
+    assert led.directions[0] == pytest.approx(np.array([1, turned]) / np.hypot(1, turned))

@@ -12,7 +12,8 @@ from shapely import LineString, MultiLineString, MultiPoint, Point, Polygon, aff
 
 import midrib
 from midrib import collapse, network, skeleton
-from midrib.curves.networks import wrong
+from midrib.curves.arms import Stretch
+from midrib.curves.networks import middle_of_end, site_of, wrong
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -179,24 +180,26 @@ def test_dead_ends_reach_the_middle_of_the_end(cut: list[Place]) -> None:
 @pytest.mark.parametrize("method", ["medial-axis", "chordal-axis", "straight-skeleton"])
 @pytest.mark.parametrize("degrees", [0, 25])
 @pytest.mark.parametrize("skew", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("beside", [1.2, 2.0, 19.0])
 def test_dead_ends_of_every_skeleton_are_in_the_middle(
-    method: str, degrees: float, skew: float
+    method: str, degrees: float, skew: float, beside: float
 ) -> None:
     """The last side of a triangulation leads into a corner, from however far away."""
-    flat = [
-        (-20, -1),
-        (20 - skew, -1),
-        (20 + skew, 1),
-        (1, 1),
-        (1, 15),
-        (-1, 15),
-        (-1, 1),
-        (-20, 1),
-    ]
+    end = [(20 - skew, -1), (20 + skew, 1), (20 + skew - beside, 1)]
+    flat = [(-20, -1), *end, (1, 1), (1, 15), (-1, 15), (-1, 1), (-20, 1)]
     area = affinity.rotate(Polygon(flat), degrees, origin=(0, 0))
     ways = nodes_of(network(area, method))
     found = affinity.rotate(MultiPoint([p for p, n in ways.items() if n == 1]), -degrees, (0, 0))
     assert found.hausdorff_distance(MultiPoint([(-20, 0), (20, 0), (0, 15)])) < 1e-9
+
+
+@pytest.mark.parametrize("first", [0, 1, 2, 3, 4])
+def test_the_flat_end_is_the_wall_ahead_not_one_beside(first: int) -> None:
+    ring = np.roll([(0, 1), (-2, 1), (-9, 1), (-9, -1), (0, -1)], -first, axis=0)
+    points = np.array([(0, 1), (-1, 0), (-2, -0.1)])
+    stretch = Stretch(np.array([0.0, 1.4, 2.4]), points, np.array([0.0, 1.0, 0.9]))
+    middle = middle_of_end(stretch, site_of(Polygon(ring), (1.0, 1.0)))
+    assert middle == pytest.approx((0, 0))
 
 
 @pytest.mark.parametrize("method", ["medial-axis", "chordal-axis", "straight-skeleton"])
@@ -246,6 +249,9 @@ def test_every_skeleton_makes_a_network(method: str) -> None:
     found = network(grid, method)
     assert off(found, network(grid)) < 0.65
     assert ways_of(found) == {4: 1, 3: 1, 1: 5}
+    for line in found.geoms:
+        steps = np.diff(shapely.get_coordinates(line), axis=0)
+        assert ((steps[:-1] * steps[1:]).sum(axis=1) > 0.0).all()  # none turns back
 
 
 def test_without_merging_there_are_the_junctions_of_the_skeleton() -> None:
