@@ -193,10 +193,12 @@ def test_dead_ends_of_every_skeleton_are_in_the_middle(
     assert found.hausdorff_distance(MultiPoint([(-20, 0), (20, 0), (0, 15)])) < 1e-9
 
 
-@pytest.mark.parametrize("first", [0, 1, 2, 3, 4])
-def test_the_flat_end_is_the_wall_ahead_not_one_beside(first: int) -> None:
-    ring = np.roll([(0, 1), (-2, 1), (-9, 1), (-9, -1), (0, -1)], -first, axis=0)
-    points = np.array([(0, 1), (-1, 0), (-2, -0.1)])
+@pytest.mark.parametrize("degrees", range(0, 360, 45))
+def test_the_flat_end_is_the_wall_ahead_not_one_beside(degrees: float) -> None:
+    turn = np.radians(degrees)
+    rotation = np.array([(np.cos(turn), np.sin(turn)), (-np.sin(turn), np.cos(turn))])
+    ring = np.array([(0, 1), (-2, 1), (-9, 1), (-9, -1), (0, -1)]) @ rotation
+    points = np.array([(0, 1), (-1, 0), (-2, -0.1)]) @ rotation
     stretch = Stretch(np.array([0.0, 1.4, 2.4]), points, np.array([0.0, 1.0, 0.9]))
     middle = middle_of_end(stretch, site_of(Polygon(ring), (1.0, 1.0)))
     assert middle == pytest.approx((0, 0))
