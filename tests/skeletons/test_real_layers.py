@@ -10,16 +10,23 @@ from tests.test_real_areas import FOLDER, LAYERS, areas_of
 
 MOST_VERTICES = 5000
 SAMPLE = 12  # areas of a layer, the same ones every time
+TRICKIEST = 2  # of each kind
 BRANCHED = [method.name for method in midrib.methods() if method.has_branches]
 
 
 def sample_of(file: str, layer: str | None) -> Floats:
-    """Some valid areas of a layer, evenly through it."""
+    """Some valid areas of a layer, evenly through it, and its largest, most holed and thinnest."""
     parts = shapely.force_2d(shapely.get_parts(areas_of(file, layer).to_numpy()))
     parts = parts[shapely.is_valid(parts) & (shapely.get_type_id(parts) == 3)]
     parts = parts[shapely.get_num_coordinates(parts) <= MOST_VERTICES]
-    rows = np.unique(np.linspace(0, len(parts) - 1, min(SAMPLE, len(parts))).astype(int))
-    sample: Floats = parts[rows]
+    evenly = np.linspace(0, len(parts) - 1, min(SAMPLE, len(parts))).astype(int)
+    tricky = (
+        shapely.get_num_coordinates(parts),
+        shapely.get_num_interior_rings(parts),
+        shapely.length(parts) ** 2 / shapely.area(parts),
+    )
+    most = [np.argsort(-trait, kind="stable")[:TRICKIEST] for trait in tricky]
+    sample: Floats = parts[np.unique(np.concatenate([evenly, *most]))]
     return sample
 
 

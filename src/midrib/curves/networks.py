@@ -10,8 +10,10 @@ import numpy as np
 import shapely
 from shapely import MultiPolygon, Polygon
 
+from midrib.curves.arms import Crossing, Net, Stretch, arms_of, net_of, passed
 from midrib.curves.graphs import Graph
-from midrib.curves.junctions import Crossing, Net, Stretch, arms_of, crossings_of, hub_of, net_of
+from midrib.curves.hubs import hub_of
+from midrib.curves.junctions import crossings_of
 from midrib.layout import Scale
 from midrib.types import Floats, Ints
 
@@ -23,6 +25,10 @@ NONE = np.empty(0, dtype=np.intp)
 TIP = 1  # ways of a point that is one
 SAMPLES = 65  # of half a dead end
 SIGNIFICANT = 2.0  # radii that something reaches that is no corner, a corner reaches 1.41
+FEWEST = 2  # points of a dead end that tell no direction before its last one
+ON_WALL = 1e-6  # of the radius before: a dead end with less is in a corner
+LONGEST_END = 4.0  # radii: ends as skew as 30 degrees; walls of points are longer
+MIDDLE_HALF = 0.25  # of the length of a flat end
 BACK, BEYOND = 2.0, 3.0  # radii from which the direction of a dead end is taken, and it is led on
 
 
@@ -47,6 +53,11 @@ class Site(NamedTuple):
     walls: shapely.STRtree  # segments of its boundary
     scale: Floats  # (2,)
     extent: float
+
+    @property
+    def near(self) -> Floats:
+        """How near, in coordinate units, a corner is the same."""
+        return STRAIGHT * self.extent / self.scale
 
     def covers(self, points: Floats) -> bool:
         """Whether a chain is inside."""
@@ -123,7 +134,9 @@ def crossing_change(net: Net, crossing: Crossing, ends: Ints, site: Site) -> Cha
     for arm in arms:
         rows = net.branches[arm.branch][:: 1 - 2 * arm.end]
         junction = net.points[rows[0]]
-        for cut, kept in ((arm.cut, arm.kept), arm.spare, (junction, len(rows) - 1)):
+        is_behind = (arm.cut - hub) @ arm.direction > 0.0
+        best = passed(net, arm, hub) if is_behind else (arm.cut, arm.kept)
+        for cut, kept in (best, arm.spare, (junction, len(rows) - 1)):
             points = np.stack([hub, cut][: 1 + (cut != hub).any()]) / site.scale
             if len(points) == 1 or site.covers(points):
                 endings[arm.branch, arm.end] = Ending(points, kept)
@@ -139,6 +152,13 @@ def tip_change(net: Net, branch: int, end: int, site: Site) -> Change:
     What the disc of the tip reaches over from there is less than a corner's share.
     """
     stretch, nothing = net.stretch(branch, end), np.empty(0, np.intp)
+    middle = middle_of_end(stretch, site)
+    if middle is not None:
+        inside = min(float(stretch.arc[1]), stretch.length / 2.0)
+        (start,), _ = stretch.at(np.array([inside]))
+        points = np.stack([middle, start / site.scale])
+        kept = int(np.count_nonzero(stretch.arc > inside))
+        return Change({(branch, end): Ending(points, kept)}, nothing)
     arc = np.linspace(0.0, stretch.length / 2.0, SAMPLES)
     _, radius = stretch.at(arc)
     is_little = arc + radius[0] <= SIGNIFICANT * radius
@@ -153,6 +173,37 @@ def tip_change(net: Net, branch: int, end: int, site: Site) -> Change:
             kept = int(np.count_nonzero(stretch.arc > inside))
             return Change({(branch, end): Ending(points, kept)}, nothing)
     return Change({}, nothing)
+
+
+def middle_of_end(stretch: Stretch, site: Site) -> Floats | None:
+    """Middle of the flat end that a dead end runs into a corner of, None if there is none.
+
+    The last side of a triangulation leads from there into one corner. The wall from that corner on
+    is the end if it is no longer than one and the way before it, led straight on, meets its middle
+    half.
+    """
+    if len(stretch.arc) <= FEWEST or stretch.radius[0] > ON_WALL * stretch.radius[1]:
+        return None
+    corner, start, before = stretch.points[:3]
+    step = start - before
+    around = shapely.box(*(corner / site.scale - site.near), *(corner / site.scale + site.near))
+    for wall in site.walls.geometries[site.walls.query(around, predicate="intersects")]:
+        one, other = shapely.get_coordinates(wall) * site.scale
+        across, middle = other - one, (one + other) / 2.0
+        turn = step[0] * across[1] - step[1] * across[0]
+        if turn == 0.0 or np.hypot(*across) > LONGEST_END * stretch.radius[1:3].max():
+            continue
+        ahead = ((one - start)[0] * across[1] - (one - start)[1] * across[0]) / turn
+        share = ((one - start)[0] * step[1] - (one - start)[1] * step[0]) / turn
+        if ahead <= 0.0 or abs(share - 0.5) > MIDDLE_HALF:
+            continue
+        rounding = np.spacing(np.abs(np.stack([start, middle])).max())
+        back = (start - middle) / np.hypot(*(start - middle))
+        for inwards in INWARDS:
+            there: Floats = (middle + inwards * rounding * back) / site.scale
+            if site.covers(np.stack([there, start / site.scale])):
+                return there
+    return None
 
 
 def edge_beyond(stretch: Stretch, inside: float, radius: float, site: Site) -> Floats | None:
