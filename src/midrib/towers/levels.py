@@ -69,14 +69,15 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     oval = np.hypot(*fit.oval(s).T)
     is_told = shell.shape.name in {"round", "oval"}
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
-    outer = (FLOOR * unit) ** 2 + registration_of(shell, options) ** 2
-    outer = outer + (1e-3 * options.levelling * (z - z[0])) ** 2
-    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
+    floor = (FLOOR * unit) ** 2
+    outer = registration_of(shell, options) ** 2 + (1e-3 * options.levelling * (z - z[0])) ** 2
+    levels["sigma_inner"] = np.sqrt((sigma**2).sum(axis=1) / 2.0 + floor)
+    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     flags = flags_of(shell, s, seen, levels, why, is_uncertain(levels, sigma, unit))
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
-    for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "ovality"):
+    for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "sigma_inner", "ovality"):
         levels[name][unanswered] = np.nan
     add_deviations(levels)
     return levels

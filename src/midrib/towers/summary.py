@@ -47,11 +47,14 @@ def azimuth_of(x: Any, y: Any) -> Any:
 
 
 def summary_of(levels: Any, unit: float) -> Summary:
-    """Sum up levels that have a centre; the best line weighs them by their uncertainty."""
+    """Sum up levels that have a centre; the best line weighs them by their uncertainty.
+
+    Registration and levelling move all levels together, so they do not weigh.
+    """
     if len(levels) < 2:
         return Summary(*[np.nan] * 9)
     z = levels["z"]
-    sigma = np.hypot(levels["sigma"], 1e-4 * unit)
+    sigma = np.hypot(levels["sigma_inner"], 1e-4 * unit)
     design = np.column_stack([np.ones(z.size), z - z[0]]) / sigma[:, None]
     values = np.column_stack([levels["x"], levels["y"]])
     line = np.linalg.lstsq(design, values / sigma[:, None], rcond=None)[0]
@@ -106,5 +109,5 @@ def turn_at(levels: Any, at: float, below: "Bools", above: "Bools") -> tuple[flo
     answer = np.linalg.lstsq(design, values, rcond=None)[0]
     inverse = np.linalg.inv(design.T @ design)
     together = max(1.0, way.size / 4.0)
-    sigma = float(np.sqrt(inverse[2, 2] * together) * np.mean(near["sigma"]))
+    sigma = float(np.sqrt(inverse[2, 2] * together) * np.mean(near["sigma_inner"]))
     return float(answer[2, 0]), float(answer[2, 1]), sigma

@@ -1,0 +1,28 @@
+"""The axis as a whole: best line, straightness, kinks."""
+
+from dataclasses import replace
+
+import pytest
+
+from midrib.towers.cloud import ArrayCloud
+from midrib.towers.pipeline import Options, axis_of
+from midrib.towers.records import TowerAxis
+from midrib.towers.simulate import Scan, Tower
+
+KINKED = Tower(height=60.0, base_radius=2.5, top_radius=1.5, kink=8.0, kink_spacing=20.0, seed=2)
+USUAL = Scan(KINKED, count=150_000, noise=(0.002, 0.004), seed=7)
+
+
+def axis_from(tower: Tower, **options: float) -> TowerAxis:
+    """Axis of a scan of a tower."""
+    return axis_of(ArrayCloud(replace(USUAL, tower=tower).points()), Options(**options))  # type: ignore[arg-type]
+
+
+def test_summary_and_kinks_do_not_depend_on_what_moves_all_levels_together() -> None:
+    plain = axis_from(KINKED)
+    told = axis_from(KINKED, registration=0.003, levelling=0.1)
+    assert plain.kinks
+    assert told.kinks == plain.kinks
+    assert told.summary == plain.summary
+    assert (told.levels["sigma"] > 0.0025).all()
+    assert plain.levels["sigma_inner"] == pytest.approx(plain.levels["sigma"], rel=1e-12)
