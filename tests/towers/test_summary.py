@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from midrib.towers.cloud import ArrayCloud
@@ -26,3 +27,17 @@ def test_summary_and_kinks_do_not_depend_on_what_moves_all_levels_together() -> 
     assert told.summary == plain.summary
     assert (told.levels["sigma"] > 0.0025).all()
     assert plain.levels["sigma_inner"] == pytest.approx(plain.levels["sigma"], rel=1e-12)
+
+
+@pytest.mark.parametrize("bend", [0.1, 0.3, 0.6])
+def test_a_smooth_bend_has_no_kinks(bend: float) -> None:
+    assert axis_from(Tower(height=100.0, bend=bend)).kinks == []
+
+
+def test_kinks_stay_and_are_where_they_are() -> None:
+    tower = Tower(height=100.0, kink=6.0, kink_spacing=20.0, bend=0.03, seed=1)
+    at, turns = tower.kinks
+    kinks = axis_from(tower).kinks
+    assert [kink.z for kink in kinks] == pytest.approx(at, abs=1.0)
+    size = 1e3 * np.hypot(*turns.T)
+    assert [kink.turn for kink in kinks] == pytest.approx(size, rel=0.15)
