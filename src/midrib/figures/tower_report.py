@@ -150,6 +150,10 @@ def summary_lines(
     lines = [
         ("cloud", source),
         ("points on the shell", f"{axis.count:,}"),
+        (
+            "left out",
+            f"{axis.unusable:,} points without three finite coordinates" * bool(axis.unusable),
+        ),
         ("sections", axis.shape.text + (f"; {axis.shape.problem}" if axis.shape.problem else "")),
         ("stations", stations_text(axis)),
         ("mode", axis.mode),
