@@ -110,6 +110,7 @@ class Shell(NamedTuple):
     cloud: Cloud  # its stations put together
     stations: list[Station]  # those that could be told apart
     unusable: int  # points without three finite coordinates
+    labels: int  # stations that the cloud names
 
 
 def untracked(chunks: "Iterable[Floats]", _: str) -> "Iterable[Floats]":
@@ -150,6 +151,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         cells=shell.cells,
         stations=shell.stations,
         unusable=shell.unusable,
+        labels=shell.labels,
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,
@@ -190,7 +192,7 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
             break
         reference = refined(reference, fit)
     return Shell(*gated(cells, fit, options, told_apart=bool(stations)), unit, cloud, stations,
-                 tally.unusable)  # fmt: skip
+                 tally.unusable, labels.size)  # fmt: skip
 
 
 def check_height(sample: "Floats", unit: float, name: str) -> None:

@@ -71,6 +71,8 @@ class TowerAxis:
         which and they overlap enough to tell. The points were put together accordingly.
     unusable : int
         Points that were left out since a coordinate is missing or not finite.
+    labels : int
+        Stations that the points name; 0 if they name none, one, or too many.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -85,6 +87,7 @@ class TowerAxis:
     steps: dict[str, Any] = field(default_factory=dict)
     stations: "list[Station]" = field(default_factory=list)
     unusable: int = 0
+    labels: int = 0
 
     @property
     def is_answered(self) -> "Bools":
