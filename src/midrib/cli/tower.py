@@ -51,7 +51,8 @@ def tower(
         return report.track(chunks, cloud.count, len, doing)
 
     axis = axis_of(cloud, options, track)
-    show(summary_lines(axis, allowed))
+    if not quiet:
+        show(summary_lines(axis, allowed))
     notes = places.write(axis, title or source.stem, allowed, options)
     for note in [*notes, *(f"written to {path}" for path in places.all)]:
         report.say(note)

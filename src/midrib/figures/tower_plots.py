@@ -174,7 +174,7 @@ def plot_section(axes: "Axes", axis: "TowerAxis", index: int) -> None:
     most = float(np.percentile(np.abs(off), 95)) if off.size else 1.0
     beyond = WALL * np.clip(off / max(most, 1e-9), -1.3, 1.3)
     turn = np.linspace(0.0, 2.0 * np.pi, 361)
-    outline = shape_outline(axis, turn)
+    outline = shape_outline(axis, turn, float(level["radius"]))
     at = np.interp(angle, turn, outline)
     axes.plot(outline * np.cos(turn), outline * np.sin(turn), color=AXIS, lw=0.25 / POINT)
     axes.plot((at + beyond) * np.cos(angle), (at + beyond) * np.sin(angle), "o", color=LINE, ms=1.5,
@@ -192,11 +192,14 @@ def plot_section(axes: "Axes", axis: "TowerAxis", index: int) -> None:
               transform=axes.transAxes)  # fmt: skip
 
 
-def shape_outline(axis: "TowerAxis", turn: "Floats") -> "Floats":
-    """Distance of the shell from the axis by azimuth, over its radius."""
-    faces = axis.cells.reference.faces
+def shape_outline(axis: "TowerAxis", turn: "Floats", radius: float) -> "Floats":
+    """Distance of the shell from the axis by angle from x, over its radius."""
+    faces, shape = axis.cells.reference.faces, axis.shape
     if not len(faces):
-        return np.ones(turn.size)
+        amplitude = shape.harmonics.get(2, (0.0, 0.0))[0] if shape.name == "oval" else 0.0
+        longest = np.radians(90.0 - shape.azimuth) if amplitude else 0.0
+        oval: Floats = 1.0 + amplitude / radius * np.cos(2.0 * (turn - longest))
+        return oval
     along = np.column_stack([np.cos(turn), np.sin(turn)]) @ faces.T
     outline: Floats = 1.0 / along.max(axis=1)
     return outline

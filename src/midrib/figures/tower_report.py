@@ -35,6 +35,8 @@ A4 = (210.0, 297.0)
 MARGIN, HEADING, ROW, ROWS = 15.0, 9.0, 4.2, 60  # millimetres; number of rows on a sheet
 COLUMNS = (13.0, 23.0, 24.0, 15.0, 13.0, 14.0, 13.0, 10.0, 14.0, 13.0, 9.0)  # millimetres
 LINE = 105  # characters of a line of the summary on paper
+FOOTER = 150  # characters of a line at the foot of a sheet
+FLAG_LINE = 22  # characters of a line of a flag in the table on paper
 MOST_LINES = 3  # of an entry of the summary on paper
 DOUBTFUL = 6.0  # mm: stations registered as usual make a round tower as oval as that
 FLAGGED, FLAGGED_ROW = "#a3201d", '<tr class="flagged">'
@@ -70,8 +72,7 @@ thead {{ display: table-header-group; }}
 <table class="levels"><thead><tr>{head}</tr></thead><tbody>
 {body}
 </tbody></table>
-<p>Sigma is the standard deviation of one coordinate of the centre, from what the cloud tells about
-itself{outer}. Azimuths are clockwise from y (north). Made by midrib {version}.</p>
+<p>{notes} Made by midrib {version}.</p>
 </body></html>
 """
 
@@ -150,7 +151,11 @@ def summary_lines(
     lines = [
         ("cloud", source),
         ("points on the shell", f"{axis.count:,}"),
-        ("sections", axis.shape.text + (f"; {axis.shape.problem}" if axis.shape.problem else "")),
+        (
+            "left out",
+            f"{axis.unusable:,} points without three finite coordinates" * bool(axis.unusable),
+        ),
+        ("sections", sections_text(axis)),
         ("stations", stations_text(axis)),
         ("mode", axis.mode),
         ("levels", f"{len(axis.levels)}, {flagged} flagged, {missing} of these without a centre"),
@@ -177,22 +182,35 @@ def summary_lines(
     return [(name, text) for name, text in lines if text]
 
 
+def sections_text(axis: "TowerAxis") -> str:
+    """Say what the sections are, how oval, and what is wrong with them."""
+    shape, oval = axis.shape, ""
+    if shape.name == "oval" and 2 in shape.harmonics:
+        size, sigma = (1e3 / axis.unit * value for value in shape.harmonics[2])
+        oval = f" by {size:.1f} ± {sigma:.2f} mm, longest towards {shape.azimuth:.0f}°"
+    return shape.text + oval + (f"; {shape.problem}" if shape.problem else "")
+
+
 def stations_text(axis: "TowerAxis") -> str:
-    """Say how stations were put together, or that a small oval may be theirs."""
+    """Say how stations were put together, or why not, and what sigma does not tell of them."""
     mm = 1e3 / axis.unit
     if axis.stations:
         parts = [
             f"{station.label}: {np.hypot(station.x, station.y) * mm:.1f} mm"
             for station in axis.stations
         ]
-        return f"put together where they overlap; off their mean by {', '.join(parts)}"
+        return (
+            f"{len(parts)}, put together where they overlap; off their mean by {', '.join(parts)}; "
+            "sigma has what these tell of the mean"
+        )
+    if axis.labels:
+        said = f"{axis.labels}, but they could not be put together: too few cells are seen by two"
+    else:
+        said = "not told apart by the points, so their shifts could not be checked"
     amplitude = axis.shape.harmonics.get(2, (0.0, 0.0))[0] * mm
     if axis.shape.name == "oval" and amplitude < DOUBTFUL:
-        return (
-            f"not told apart: that sections are oval by {amplitude:.1f} mm "
-            "may be their registration"
-        )
-    return ""
+        said += f"; that sections are oval by {amplitude:.1f} mm may be their registration"
+    return f"{said}; registration is in sigma only if given"
 
 
 def exceeding(axis: "TowerAxis", tolerance: "Tolerance") -> str:
@@ -222,7 +240,11 @@ def rows_of_levels(axis: "TowerAxis") -> list[tuple[str, ...]]:
             (100.0 * level["ovality"], 2), (level["coverage"], 0), (float(level["n"]), 0),
             (level["residual"] * mm, 1), (level["sigma"] * mm, 2),
         ]  # fmt: skip
-        texts = ["" if np.isnan(value) else f"{value:.{digits}f}" for value, digits in numbers]
+        # Adding 0 makes 0 of -0.
+        texts = [
+            "" if np.isnan(value) else f"{round(float(value), digits) + 0.0:.{digits}f}"
+            for value, digits in numbers
+        ]
         rows.append((*texts, str(level["flag"])))
     return rows
 
@@ -244,9 +266,25 @@ def page(content: Content, figures: "list[Figure]") -> str:
         figures="\n".join(drawn),
         head="".join(f"<th>{escape(name)}</th>" for name in HEADINGS),
         body=body,
-        outer=escape(content.outer),
+        notes=escape(notes(content)),
         version=__version__,
     )
+
+
+def notes(content: Content) -> str:
+    """Say what the numbers mean."""
+    return (
+        "Sigma is the standard deviation of one coordinate of the centre, from what the cloud "
+        f"tells about itself{content.outer}. Azimuths are clockwise from y (north)."
+    )
+
+
+def write_footer(sheet: Sheet, content: Content, number: int, count: int) -> None:
+    """Write what the numbers mean, the cloud's name, version and number of a page at its foot."""
+    for i, part in enumerate(wrap(notes(content), FOOTER)):
+        write_text(sheet, MARGIN, 12.5 - 2.8 * i, part, fontsize=FONT - 1.5)
+    name = f"{content.source or content.title}, page {number} of {count}; midrib {__version__}"
+    write_text(sheet, A4[0] - MARGIN, 6.0, name, fontsize=FONT - 1.5, ha="right")
 
 
 def cells(row: tuple[str, ...]) -> str:
@@ -285,7 +323,9 @@ def write_pdf(content: Content, path: Path) -> None:
         heading(second, TITLES[2], low + sections_height)
         draw_sections(axis, second._replace(left=left, low=low))
         tables = [table_sheet(rows[k : k + ROWS]) for k in range(0, len(rows), ROWS)]
-        for sheet in (first, second, *tables):
+        sheets = (first, second, *tables)
+        for number, sheet in enumerate(sheets, 1):
+            write_footer(sheet, content, number, len(sheets))
             pages.savefig(sheet.figure)
 
 
@@ -328,9 +368,12 @@ def table_sheet(rows: list[tuple[str, ...]]) -> Sheet:
             write_text(
                 sheet, float(right), level, text, ha="right", fontsize=FONT - 1.0, color=colour
             )
-        write_text(
-            sheet, float(rights[-1]) + 3.0, level, row[-1], fontsize=FONT - 1.0, color=colour
-        )
+        # Flags that need two lines are small, so that rows stay where they are.
+        parts = wrap(row[-1], FLAG_LINE)
+        small = FONT - (1.0 if len(parts) < 2 else 2.5)
+        for k, part in enumerate(parts or [""]):
+            at = level + 0.8 * (len(parts) > 1) - ROW / max(2, len(parts)) * k
+            write_text(sheet, float(rights[-1]) + 3.0, at, part, fontsize=small, color=colour)
     y = (top - 2.0 * ROW + 0.2) / A4[1]
     line = Line2D([MARGIN / A4[0], 1.0 - MARGIN / A4[0]], [y, y], color=TEXT, lw=0.5)
     sheet.figure.add_artist(line)

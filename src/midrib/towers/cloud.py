@@ -10,9 +10,9 @@ from midrib.errors import GeometryTypeError, ParameterError
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from midrib.types import Floats
+    from midrib.types import Bools, Floats
 
-__all__ = ["CHUNK", "ArrayCloud", "Cloud", "InOrder", "sample_of", "spots_in"]
+__all__ = ["CHUNK", "ArrayCloud", "Cloud", "InOrder", "Tally", "sample_of", "spots_in"]
 
 CHUNK = 500_000  # points
 PIECE = 100  # points read at one place for a sample, where places are free to choose
@@ -144,6 +144,19 @@ class ArrayCloud:
         if self.stations is None or not with_stations:
             return self.points[rows]
         return np.column_stack([self.points[rows], self.stations[rows]])
+
+
+class Tally:
+    """Count, in passing, of points that lack a coordinate."""
+
+    unusable = 0
+
+    def over(self, chunks: "Iterable[Floats]") -> "Iterator[Floats]":
+        """Points, a chunk at a time, those with all coordinates."""
+        for chunk in chunks:
+            known: Bools = np.asarray(np.isfinite(chunk).all(axis=1))
+            self.unusable += len(known) - int(known.sum())
+            yield chunk if known.all() else chunk[known]
 
 
 def sample_of(chunks: "Iterable[Floats]", most: int, name: str) -> "tuple[Floats, int]":

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from midrib.errors import ParameterError
 from midrib.towers.records import LEVELS
 from midrib.towers.summary import azimuth_of
 
@@ -47,7 +48,13 @@ class Seen(NamedTuple):
 
 
 def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None) -> Any:
-    """Levels of a shell; with the centres of the joint fit unless given."""
+    """Levels of a shell; with the centres of the joint fit unless given.
+
+    Raises
+    ------
+    ParameterError
+        If there is no level.
+    """
     unit = options.unit
     frame, cells, fit = shell.cells.reference.frame, shell.cells, shell.fit
     s_axis = np.arange(cells.s.min(), cells.s.max(), cells.grid.level / 4.0)
@@ -55,6 +62,14 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     world = frame.outwards(np.column_stack([values[:, :2], s_axis]))
     step = options.step or cells.grid.level
     z, s, seen = heights_of(shell, world[:, 2], s_axis, step, unit)
+    if not z.size:
+        low, high = world[0, 2] / unit, world[-1, 2] / unit
+        msg = (
+            f"no tower was found: what looks like one has no level between z = {low:.2f} m and "
+            f"{high:.2f} m at steps of {step / unit:g} m, expected a tower that stands along z; "
+            "is another coordinate the height?"
+        )
+        raise ParameterError(msg)
     levels = np.zeros(z.size, dtype=LEVELS)
     levels["z"] = z
     xy, sigma, why = joint_centres(shell, s) if centres is None else at_heights(centres, s)
@@ -69,14 +84,15 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     oval = np.hypot(*fit.oval(s).T)
     is_told = shell.shape.name in {"round", "oval"}
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
-    outer = (FLOOR * unit) ** 2 + registration_of(shell, options) ** 2
-    outer = outer + (1e-3 * options.levelling * (z - z[0])) ** 2
-    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + outer)
+    floor = (FLOOR * unit) ** 2
+    outer = registration_of(shell, options) ** 2 + (1e-3 * options.levelling * (z - z[0])) ** 2
+    levels["sigma_inner"] = np.sqrt((sigma**2).sum(axis=1) / 2.0 + floor)
+    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     flags = flags_of(shell, s, seen, levels, why, is_uncertain(levels, sigma, unit))
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
-    for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "ovality"):
+    for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "sigma_inner", "ovality"):
         levels[name][unanswered] = np.nan
     add_deviations(levels)
     return levels

@@ -14,7 +14,7 @@ import numpy as np
 from midrib.checks import check_library, is_number, shown
 from midrib.errors import ParameterError
 from midrib.towers.cells import Cells, Reference, cells_of, grid_for, reference_of
-from midrib.towers.cloud import Cloud, sample_of
+from midrib.towers.cloud import Cloud, Tally, sample_of
 from midrib.towers.faces import rough_polygon
 from midrib.towers.gate import bands_of, shape_of
 from midrib.towers.joint import Fit, fit_cells
@@ -40,6 +40,7 @@ BETTER = 0.6  # times as far off points are if the tower has faces
 MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
+LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
@@ -108,6 +109,8 @@ class Shell(NamedTuple):
     unit: float  # coordinate units in a metre
     cloud: Cloud  # its stations put together
     stations: list[Station]  # those that could be told apart
+    unusable: int  # points without three finite coordinates
+    labels: int  # stations that the cloud names
 
 
 def untracked(chunks: "Iterable[Floats]", _: str) -> "Iterable[Floats]":
@@ -147,6 +150,8 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         count=int(shell.cells.n.sum()),
         cells=shell.cells,
         stations=shell.stations,
+        unusable=shell.unusable,
+        labels=shell.labels,
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,
@@ -158,6 +163,7 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     unit = options.unit
     sample, came = sample_of(track(cloud.some(SAMPLE), "sampling"), SAMPLE, cloud.name)
     labels, sample = labels_in(sample), np.ascontiguousarray(sample[:, :3])
+    check_height(sample, unit, cloud.name)
     rough = shape_found(sample, options)
     heights = rough.frame.inwards(sample)[:, 2]
     low, high = np.percentile(heights, [0.2, 99.8])
@@ -174,7 +180,10 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
         stations = stations_of(chunks, labels, reference, grid, unit)
         cloud = Aligned(cloud, stations) if stations else cloud
     for _ in range(MOST_PASSES):
-        cells = cells_of(track(cloud.chunks(), "cells"), reference, grid, unit, fine=True)
+        tally = Tally()
+        cells = cells_of(
+            tally.over(track(cloud.chunks(), "cells")), reference, grid, unit, fine=True
+        )
         fit = fit_cells(cells, unit)
         used = cells.s[fit.weight > 0.0]
         moved = np.abs(fit.values(used) - reference.at(used)[:, :3]).max(initial=0.0)
@@ -182,7 +191,25 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
         if moved < max(MOVED * unit, MOVED_SHARE * noise) or cells.grid.enough < 4:
             break
         reference = refined(reference, fit)
-    return Shell(*gated(cells, fit, options, told_apart=bool(stations)), unit, cloud, stations)
+    return Shell(*gated(cells, fit, options, told_apart=bool(stations)), unit, cloud, stations,
+                 tally.unusable, labels.size)  # fmt: skip
+
+
+def check_height(sample: "Floats", unit: float, name: str) -> None:
+    """Refuse points that are all about as high.
+
+    Raises
+    ------
+    ParameterError
+        If no tower can be so low.
+    """
+    low, high = np.percentile(sample[:, 2], [0.2, 99.8]) / unit
+    if high - low < LEAST_HEIGHT:
+        msg = (
+            f"{name} has points between z = {low:.3f} m and {high:.3f} m only, expected a tower "
+            f"at least {LEAST_HEIGHT:g} m high; is another coordinate the height?"
+        )
+        raise ParameterError(msg)
 
 
 def shape_found(sample: "Floats", options: Options) -> Rough:
@@ -210,10 +237,12 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
         raise ParameterError(why)
     usual = float(np.median(found.table[:, 3]))
     if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
+        far = "hardly any is near the best"
+        if np.isfinite(found.off):
+            far = f"half of them more than {found.off / options.unit:.2g} m off the best"
         msg = (
             "no tower was found: points are neither on circles nor on the faces of a regular "
-            f"polygon, half of them more than {found.off / options.unit:.2g} m off the best; "
-            "near= and radius= say where it is and how thick"
+            f"polygon, {far}; near= and radius= say where it is and how thick"
         )
         raise ParameterError(msg)
     return found

@@ -20,7 +20,7 @@ __all__ = ["LEVELS", "Shape", "TowerAxis"]
 LEVELS = np.dtype(
     [(name, np.float64) for name in ("z", "x", "y", "radius", "sigma", "deviation", "azimuth")]
     + [("coverage", np.float64), ("n", np.int64), ("flag", "U96")]
-    + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y")]
+    + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y", "sigma_inner")]
 )
 
 
@@ -51,7 +51,8 @@ class TowerAxis:
         vertical through the lowest level and its ``azimuth`` in degrees from y (north) clockwise;
         ``coverage``, degrees of the shell that are seen; ``n`` points; ``flag``, empty where all is
         well; ``ovality``, longest less shortest diameter over the mean one, NaN where unknown;
-        ``residual``, standard deviation of the cells of the level; ``sigma_x``, ``sigma_y``.
+        ``residual``, standard deviation of the cells of the level; ``sigma_x``, ``sigma_y``;
+        ``sigma_inner``, ``sigma`` without registration and levelling, which move all levels alike.
         Lengths are in coordinate units. A level without an answer has NaN and a flag.
     mode : str
         "joint", "fan" or "paper".
@@ -68,6 +69,10 @@ class TowerAxis:
     stations : list of Station
         How far each station is off the mean of all, where the cloud says which points are from
         which and they overlap enough to tell. The points were put together accordingly.
+    unusable : int
+        Points that were left out since a coordinate is missing or not finite.
+    labels : int
+        Stations that the points name; 0 if they name none, one, or too many.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -81,6 +86,8 @@ class TowerAxis:
     used: "Bools"  # (n,) which cells counted
     steps: dict[str, Any] = field(default_factory=dict)
     stations: "list[Station]" = field(default_factory=list)
+    unusable: int = 0
+    labels: int = 0
 
     @property
     def is_answered(self) -> "Bools":

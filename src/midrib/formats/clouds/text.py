@@ -38,6 +38,7 @@ class Layout(NamedTuple):
     delimiter: str  # "," ";" "\t" or " " for any run of blanks
     columns: tuple[int, ...]  # x, y, z, and the station if a heading names it
     n_columns: int
+    decimal: str = "."  # a comma where semicolons divide
 
 
 class TextCloud(InOrder):
@@ -82,7 +83,9 @@ class TextCloud(InOrder):
         wanted = [names[k] for k in self.layout.columns[:n]]
         parse = csv.ParseOptions(delimiter=delimiter, invalid_row_handler=lambda _: "skip")
         convert = csv.ConvertOptions(
-            include_columns=wanted, column_types={name: pa.float64() for name in wanted}
+            include_columns=wanted,
+            column_types={name: pa.float64() for name in wanted},
+            decimal_point=self.layout.decimal,
         )
         read = csv.ReadOptions(column_names=names, block_size=max(len(block), 1 << 16))
         try:
@@ -94,7 +97,8 @@ class TextCloud(InOrder):
             raise ParameterError(msg) from error
         columns: list[Any] = [table.column(name).to_numpy() for name in wanted]
         points: Floats = np.column_stack(columns)
-        return points[np.isfinite(points).all(axis=1)]
+        # Without stations, who reads them counts the points that lack a coordinate.
+        return points if n == MANY else points[np.isfinite(points).all(axis=1)]
 
 
 def wanted_text(layout: Layout) -> str:
@@ -115,6 +119,8 @@ def layout_of(lines: list[str], name: str) -> Layout:
             continue
         delimiter = delimiter_of(line)
         parts = parts_of(line, delimiter)
+        decimal = "," if delimiter == ";" and "," in line and "." not in line else "."
+        parts = [part.replace(decimal, ".") for part in parts]
         numbers = [k for k, part in enumerate(parts) if is_number_text(part)]
         if len(numbers) < MANY:
             continue
@@ -122,8 +128,12 @@ def layout_of(lines: list[str], name: str) -> Layout:
         columns = heading or first_columns(numbers, parts)
         if columns[-1] not in numbers:
             columns = columns[:MANY]  # stations have names: points are all one cloud
-        return Layout(skipped, delimiter, columns, len(parts))
-    msg = f"{name} has no line with three numbers among its first {len(lines)}, expected x, y, z"
+        return Layout(skipped, delimiter, columns, len(parts), decimal)
+    last = f", the last of which is {lines[-1][:60]!r}" if lines else ""
+    msg = (
+        f"{name} has no line with three numbers among its first {len(lines)}{last}, expected x, y, "
+        "z; decimal commas need semicolons between the columns"
+    )
     raise ParameterError(msg)
 
 

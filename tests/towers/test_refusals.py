@@ -1,0 +1,73 @@
+"""Clouds that are no tower, or hard to read: one sentence, or an axis."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from midrib import tower_axis
+from midrib.errors import ParameterError
+from midrib.figures.tower_report import summary_lines
+from midrib.types import Floats
+from tests.towers.scans import CONE
+
+
+def flat() -> Floats:
+    """Points of a floor."""
+    x, y = np.random.default_rng(0).uniform(-5.0, 5.0, (2, 5000))
+    return np.column_stack([x, y, np.full(x.size, 1.5)])
+
+
+def sliver() -> Floats:
+    """Points of a shell of which 50 degrees are seen."""
+    random = np.random.default_rng(1)
+    angle, z = np.radians(random.uniform(0.0, 50.0, 40_000)), random.uniform(0.0, 40.0, 40_000)
+    r = 2.5 - z / 40.0 + random.normal(0.0, 0.003, z.size)
+    return np.column_stack([r * np.cos(angle), r * np.sin(angle), z])
+
+
+@pytest.mark.parametrize("points", [flat(), np.ones((500, 3))])
+def test_points_of_one_height_are_refused(points: Floats) -> None:
+    with pytest.raises(ParameterError, match=r"expected a tower at least 0\.05 m high"):
+        tower_axis(points)
+
+
+def test_a_tower_that_lies_is_refused_or_told_of() -> None:
+    try:
+        axis = tower_axis(CONE.points()[:, [0, 2, 1]])
+    except ParameterError as error:
+        assert "no tower was found" in str(error)  # noqa: PT017
+    else:
+        assert (axis.levels["flag"] != "").all()
+
+
+def test_a_sliver_has_no_infinite_distance() -> None:
+    try:
+        tower_axis(sliver())
+    except ParameterError as error:
+        assert "inf m" not in str(error)  # noqa: PT017
+
+
+@pytest.mark.parametrize("ending", ["npy", "csv"])
+def test_points_without_a_coordinate_are_counted(ending: str, tmp_path: Path) -> None:
+    points = CONE.points()
+    points[50::100, 1] = np.nan
+    path = tmp_path / f"scan.{ending}"
+    if ending == "npy":
+        np.save(path, points)
+    else:
+        np.savetxt(path, points, fmt="%.5f", delimiter=",")
+    axis = tower_axis(path)
+    assert axis.unusable == len(points[50::100])
+    told = [text for name, text in summary_lines(axis) if name == "left out"]
+    assert told == ["600 points without three finite coordinates"]
+
+
+def test_decimal_commas_between_semicolons_are_read(tmp_path: Path) -> None:
+    points = CONE.points()[:20_000]
+    path = tmp_path / "scan.csv"
+    rows = "\n".join(";".join(f"{v:.5f}".replace(".", ",") for v in row) for row in points)
+    path.write_text(f"x;y;z\n{rows}\n", encoding="ascii")
+    axis = tower_axis(path)
+    expected = tower_axis(np.round(points, 5))
+    assert axis.points == pytest.approx(expected.points, abs=1e-9)
