@@ -91,6 +91,16 @@ def test_parts_have_no_machine_code_and_entries_no_parts_left() -> None:
     assert not [name for name in names if "test_whole" in name]
 
 
+def test_entries_show_others_nothing_but_themselves() -> None:
+    """Code from the disk has names that are those of other functions in another process."""
+    fresh = COMPILER.njit(python_of(other_entry), pipeline_class=WholeCompiler)
+    assert fresh(4) == 49.0
+    functions = library_of(fresh)._final_module.functions
+    shown = [f.name for f in functions if not f.is_declaration and f.linkage.name != "internal"]
+    assert shown
+    assert all("other_entry" in name for name in shown)
+
+
 def test_others_can_call_kernels() -> None:
     @COMPILER.njit  # type: ignore[untyped-decorator]
     def theirs(n: int) -> float:

@@ -72,10 +72,9 @@ class Part(JITCodeLibrary):
         return self._linked
 
 
-def link_parts(module: Any, library: Any) -> set[str]:
-    """Link what a library calls into a module, each once; return the names of parts' functions."""
+def link_parts(module: Any, library: Any) -> None:
+    """Link what a library calls into a module, each once."""
     waiting, seen = [library], set()
-    names: set[str] = set()
     while waiting:
         for called in waiting.pop()._linking_libraries:
             if called in seen:
@@ -84,18 +83,9 @@ def link_parts(module: Any, library: Any) -> set[str]:
             library._reload_init.update(called._reload_init)
             if isinstance(called, Part):
                 module.link_in(called._final_module, preserve=True)
-                names |= defined(called)
                 waiting.append(called)
             else:
                 module.link_in(called._get_module_for_linking(), preserve=True)
-    return names
-
-
-def defined(part: Part) -> set[str]:
-    """Names of the functions of a part that others can call."""
-    shared = llvm.Linkage.linkonce_odr
-    functions = part._final_module.functions
-    return {f.name for f in functions if not f.is_declaration and f.linkage == shared}
 
 
 class Whole(JITCodeLibrary):
@@ -103,10 +93,13 @@ class Whole(JITCodeLibrary):
 
     def finalize(self) -> None:
         """Link the tree of parts, each once, and make machine code of it."""
-        names = link_parts(self._final_module, self)
-        # Nobody else calls them: what is called once is inlined, what is inlined is dropped.
+        own = {f.name for f in self._final_module.functions if not f.is_declaration}
+        link_parts(self._final_module, self)
+        # Nobody else calls the others: what is called once is inlined, what is inlined is dropped.
+        # Nor may others find them: names are numbered anew in each process, so that those of code
+        # that comes from the disk can be names of something else by then.
         for function in self._final_module.functions:
-            if function.name in names and not function.is_declaration:
+            if not function.is_declaration and function.name not in own:
                 function.linkage = llvm.Linkage.internal
         self._linking_libraries = []
         super().finalize()
