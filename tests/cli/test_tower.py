@@ -1,5 +1,6 @@
 """``midrib tower``: files that are whole, exit codes, sentences."""
 
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,8 @@ from midrib.formats.reading import layer_names
 from tests.cli.commands import Runner
 from tests.formats.layers import read_all
 from tests.towers.scans import CONE, dirty
+
+METRES = 6  # $INSUNITS
 
 
 @pytest.fixture(scope="module")
@@ -39,8 +42,11 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert page.count("<tr") == table.num_rows + 2 + outcome.out.count("\n")
     expected = CONE.axis(np.array(table["z"]))
     assert np.array(table["x"]) == pytest.approx(expected[:, 0], abs=1e-6)
-    lines = list(readfile(places[2]).modelspace())
-    assert len(lines) == 1
+    drawing = readfile(places[2])
+    assert drawing.header["$INSUNITS"] == METRES
+    layers = Counter(entity.dxf.layer for entity in drawing.modelspace())
+    n = table.num_rows
+    assert layers == {"MIDRIB_AXIS": 1, "MIDRIB_LEVELS": n, "MIDRIB_HEIGHTS": n}
     assert set(layer_names(places[3])) == {"axis", "levels"}
     _, attributes, points = read_all(places[4])
     assert len(points) == table.num_rows

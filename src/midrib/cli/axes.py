@@ -7,9 +7,11 @@ import numpy as np
 import pyarrow as pa
 import shapely
 
+from midrib.checks import check_library
 from midrib.cli.tables import write_rows
 from midrib.errors import ParameterError
 from midrib.figures.tower_report import check_report, write_report
+from midrib.formats.drawing.axes import write_axis_dxf
 from midrib.formats.endings import format_of
 from midrib.formats.units import METRES, length_in
 from midrib.formats.writing import Features, check_free, staged, write_layer
@@ -44,12 +46,15 @@ class Places(NamedTuple):
         ------
         ParameterError
             If a place is taken or has an ending that nothing can be written with.
+        MissingDependencyError
+            If a library that a format needs is not installed.
         """
         if self.report is not None:
             check_report(self.report)
             check_free([self.report], "--report", overwrite=overwrite)
         for path in self.out:
-            format_of(path)
+            if format_of(path).is_drawing:
+                check_library("ezdxf", "writing DXF", "dxf")
         check_free(self.out, "--out", overwrite=overwrite)
         for path in self.all:
             if path.exists() and self.source.exists() and path.samefile(self.source):
@@ -83,8 +88,11 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
     if path.suffix.lower() == ".csv":
         return write_rows(path, levels)
     target = format_of(path)
-    if target.is_drawing or not target.has_layers:
-        return write_layer(path, line if target.is_drawing else levels)
+    if target.is_drawing:
+        write_axis_dxf(path, axis.points, axis.unit)
+        return []
+    if not target.has_layers:
+        return write_layer(path, levels)
     return write_layer(path, line) + write_layer(path, levels)
 
 
