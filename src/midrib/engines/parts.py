@@ -61,7 +61,7 @@ class Work:
     def finished(self, number: int) -> Counts | None:
         """Return counts of a part that is there and of this job, else None."""
         footer = read_footer(self.lines(number))
-        if not footer:
+        if footer.get("job") != self.key:
             return None
         return Counts(**{name: footer[name] for name in vars(Counts())})
 
