@@ -16,8 +16,6 @@ from typing import Any, TypeVar
 
 import numba as nb
 
-from midrib.kernels.whole import PartCompiler, WholeCompiler
-
 __all__ = ["cache_folder", "njit"]
 
 
@@ -42,9 +40,7 @@ def cache_folder() -> Path:
 
 
 CACHE_FOLDER = str(cache_folder())
-WITHIN = {
-    "cache": False, "nogil": False, "no_cpython_wrapper": True, "pipeline_class": PartCompiler
-}  # fmt: skip
+WITHIN = {"cache": False, "nogil": False, "no_cpython_wrapper": True}
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
@@ -81,7 +77,6 @@ def njit(
         # A fifth of the time to compile went into doors to Python and C that nobody uses.
         "no_cpython_wrapper": not entry,
         "no_cfunc_wrapper": True,
-        "pipeline_class": WholeCompiler if entry else PartCompiler,
     }
 
     def compiled(kernel: Kernel) -> Kernel:
