@@ -1,5 +1,8 @@
 """Many areas in one call: the same lines as one by one, for any number of threads."""
 
+import signal
+import subprocess
+import sys
 from typing import Any
 
 import numpy as np
@@ -87,3 +90,36 @@ def test_runs_cover_areas_once() -> None:
     assert runs[0][0] == 0
     assert runs[-1][1] == 6
     assert all(last > first for first, last in runs)
+
+
+STORM = """
+import random, signal, sys
+import midrib
+from tests.shapes import wavy_ribbon
+
+class Raised(Exception):
+    pass
+
+def handle(*_):
+    raise Raised
+
+area, hits = wavy_ribbon(40, 0.2), 0
+line = midrib.collapse(area)
+rng = random.Random(8)
+signal.signal(signal.SIGALRM, handle)
+while hits < 1500:
+    try:
+        signal.setitimer(signal.ITIMER_REAL, rng.uniform(2e-5, 4e-4))
+        while True:
+            assert midrib.collapse(area).equals_exact(line, 0.0)
+    except Raised:
+        hits += 1
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer that sends signals")
+def test_a_handler_that_raises_harms_no_single_area() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", STORM], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")

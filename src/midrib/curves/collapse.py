@@ -3,6 +3,7 @@
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from operator import is_
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -18,7 +19,7 @@ from midrib.curves.finding import Finder
 from midrib.curves.lines import Part, lines_of, polygons_of
 from midrib.curves.methods import finder_of
 from midrib.curves.taking import as_array, take
-from midrib.curves.usual import threads_to_use
+from midrib.curves.usual import line_of_one, threads_to_use
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
@@ -155,6 +156,11 @@ def collapse(
     >>> collapse([box(0, 0, 6, 2), None])
     array([<LINESTRING (0 1, 2 1, 4 1, 6 1)>, None], dtype=object)
     """
+    given = (method, on_error, along, geographic, connect, simplify, smooth, threads)
+    if isinstance(areas, Polygon) and not options and all(map(is_, given, DEFAULTS)):
+        line = line_of_one(areas)
+        if line is not None:
+            return line
     check_on_error(on_error)
     check_connect(connect, along, options.get("ends", "caps"))
     find, care = finder_of(method, **options), aftercare(simplify, smooth)
@@ -169,6 +175,10 @@ def collapse(
         )  # fmt: skip
     result = taken.given_back(lines)
     return result if on_error == "raise" else (result, log.problems)
+
+
+# What ``collapse`` takes if nothing is given; to be told by identity, as arrays do not compare.
+DEFAULTS = (*(collapse.__defaults__ or ()), *(collapse.__kwdefaults__ or {}).values())
 
 
 def check_on_error(on_error: Any) -> None:

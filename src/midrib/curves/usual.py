@@ -6,31 +6,42 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
+from shapely import LineString, Polygon
 
 from midrib import interrupts
 from midrib.checks import shown
 from midrib.curves.construction import CENTRED_WITHIN
 from midrib.curves.finding import Found
 from midrib.errors import ParameterError
-from midrib.kernels.batch import Lines, collapse_many
+from midrib.kernels.batch import UNDONE, collapse_many
+from midrib.ragged import Packed, pack_rings
+from midrib.strip import PLANE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from midrib.layout import Scale
-    from midrib.ragged import Packed
     from midrib.types import Floats, Ints
 
-__all__ = ["Usual", "threads_to_use", "usual_line", "usual_lines"]
+__all__ = ["Usual", "line_of_one", "threads_to_use", "usual_line", "usual_lines"]
 
+NO_Z = np.zeros(1, np.bool_)
 RUN = 2**15  # vertices that a thread takes at a time: a few milliseconds of work
+
+
+class Lines(NamedTuple):
+    """Lines of several areas, see ``collapse_many``."""
+
+    points: "Floats"
+    offsets: "Ints"
+    loops: "Ints"
 
 
 class Usual(NamedTuple):
     """Lines of areas as geometries, None where the single steps are to be taken."""
 
     lines: "NDArray[np.object_]"
-    loops: "Ints"  # how many each has lost
+    loops: "Ints"  # how many each has lost, UNDONE for None
 
 
 def threads_to_use(threads: object) -> int:
@@ -49,15 +60,40 @@ def threads_to_use(threads: object) -> int:
     return int(threads)
 
 
+def line_of_one(area: Polygon) -> LineString | None:
+    """Return the line of one area, None if there is anything to look at more closely or to say.
+
+    What many areas need (a log, parts, labels, threads) takes longer than the line of a hundred
+    vertices. Interrupts need not be deferred: ``collapse_many`` is handed plain arrays and numbers
+    and gives back a single array, see there.
+    """
+    if area.is_empty or area.has_z or not shapely.is_valid(area):
+        return None
+    found = usual_line(*pack_rings(area), PLANE)
+    if found is None or found.loops:
+        return None
+    line: LineString = shapely.linestrings(found.points)
+    return line
+
+
 def usual_line(coordinates: "Floats", offsets: "Ints", scale: "Scale") -> Found | None:
     """Return the line of one area, None if the single steps are to be taken."""
     whole = np.array([0, offsets.size - 1], np.intp)
     scales = np.array([scale], np.float64)
-    found = collapse_many(coordinates, offsets, whole, 0, 1, CENTRED_WITHIN, scales)
-    return Found(found.points, None, int(found.loops[0])) if found.is_done[0] else None
+    packed = Packed(coordinates, offsets, whole, NO_Z)
+    points, _, loops = lines_of_run(packed, (0, 1), scales)
+    return None if loops[0] == UNDONE else Found(points, None, int(loops[0]))
 
 
-def usual_lines(packed: "Packed", scales: "Floats", threads: int) -> Usual:
+def lines_of_run(packed: Packed, run: tuple[int, int], scales: "Floats") -> Lines:
+    """Lines of the areas of one run."""
+    n = run[1] - run[0]
+    offsets, loops = np.empty(n + 1, np.intp), np.empty(n, np.intp)
+    points = collapse_many(*packed[:3], *run, CENTRED_WITHIN, scales, offsets, loops)
+    return Lines(points, offsets, loops)
+
+
+def usual_lines(packed: Packed, scales: "Floats", threads: int) -> Usual:
     """Lines of areas; the same ones, bit by bit, for any number of threads.
 
     Parameters
@@ -69,7 +105,7 @@ def usual_lines(packed: "Packed", scales: "Floats", threads: int) -> Usual:
     runs = runs_of(packed.ring_offsets[packed.area_offsets])
 
     def found_in(run: tuple[int, int]) -> Lines:
-        return collapse_many(*packed[:3], *run, CENTRED_WITHIN, scales)
+        return lines_of_run(packed, run, scales)
 
     found: list[Lines] = []
     if min(threads, len(runs)) == 1:

@@ -8,25 +8,16 @@ A call takes a run of areas and lets other threads go on meanwhile; what it find
 not depend on the others, nor on how many of them there are in the run.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from midrib.kernels.collapsing import collapse_rings
 from midrib.kernels.jit import njit
 from midrib.kernels.tables import with_rows
-from midrib.types import Bools, Floats, Ints
+from midrib.types import Floats, Ints
 
-__all__ = ["Lines", "collapse_many"]
+__all__ = ["UNDONE", "collapse_many"]
 
-
-class Lines(NamedTuple):
-    """Lines of several areas."""
-
-    is_done: Bools  # whether there is one; the single steps know what to do or to say if not
-    points: Floats  # (m, 2)
-    offsets: Ints  # where the points of each begin, and where those of the last one end
-    loops: Ints  # how many each has lost
+UNDONE = -1  # loops of a line that is not there
 
 
 @njit(entry=True)
@@ -38,7 +29,9 @@ def collapse_many(
     last: int,
     share: float,
     scales: Floats,
-) -> Lines:
+    offsets: Ints,
+    loops: Ints,
+) -> Floats:
     """Trunks of the areas from ``first`` up to ``last``, as ``collapse_rings`` finds them.
 
     Parameters
@@ -47,10 +40,20 @@ def collapse_many(
     first, last : which of them
     share : tolerance, as a share of the mean width
     scales : (n, 2) lengths of one unit of x and of y in each area; NaN where none is wanted
+    offsets : filled; where the points of each line begin, and where those of the last one end
+    loops : filled; how many each line has lost, UNDONE where there is none, as the single steps
+        know what to do or to say
+
+    Returns
+    -------
+    points : (m, 2) those of all lines
+
+    It is the only array that is handed back: should a signal's handler raise meanwhile, Numba
+    notices it for one array and not for several.
     """
     n = last - first
-    is_done, loops = np.zeros(n, np.bool_), np.zeros(n, np.intp)
-    offsets, points, used = np.zeros(n + 1, np.intp), np.empty((32 * n + 16, 2)), 0
+    points, used = np.empty((32 * n + 16, 2)), 0
+    offsets[0] = 0
     for i in range(n):
         start, stop = area_offsets[first + i], area_offsets[first + i + 1] + 1
         rings = np.empty(stop - start, np.intp)
@@ -58,7 +61,7 @@ def collapse_many(
             rings[k] = ring_offsets[start + k] - ring_offsets[start]
         rows = coordinates[ring_offsets[start] : ring_offsets[stop - 1]]
         scale_x, scale_y = scales[first + i, 0], scales[first + i, 1]
-        offsets[i + 1] = used
+        offsets[i + 1], loops[i] = used, UNDONE
         if not np.isfinite(scale_x * scale_y):
             continue
         done, line, lost = collapse_rings(rows, rings, share, scale_x, scale_y)
@@ -69,8 +72,8 @@ def collapse_many(
             for k in range(size):
                 points[used + k, 0], points[used + k, 1] = line[k, 0], line[k, 1]
             used += size
-            is_done[i], loops[i], offsets[i + 1] = True, lost, used
-    return Lines(is_done, with_rows(points[:used], used), offsets, loops)
+            loops[i], offsets[i + 1] = lost, used
+    return with_rows(points[:used], used)
 
 
 @njit(borrows=True)
