@@ -24,6 +24,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 
+import speed_plot
 from families import FAMILIES, GROWING, Case, make, mixed
 from rivals import MIDRIB, RIVALS, YARDSTICKS, Way
 from tables import ROOT, machine, machine_text, markdown, milliseconds, versions, write_json
@@ -56,7 +57,7 @@ class Plan(NamedTuple):
 
 
 FULL = Plan(
-    tuple((family, n) for family in GROWING for n in (100, 1000, 10_000, 100_000))
+    tuple((family, n) for family in GROWING for n in (100, 1000, 10_000, 100_000, 1_000_000))
     + tuple((family, n) for family in ("rect", "ushape") for n in (100, 1000, 10_000)),
     ROUNDS,
     BUDGET,
@@ -285,6 +286,8 @@ kernels are compiled once and cached. *growth* is the exponent k if time grows l
 vertices to the last size. What its smaller sizes predict to last longer than {longest:.0f} s is
 left out.
 
+![Time against size for each family](pictures/speed.svg)
+
 """
 
 
@@ -393,6 +396,8 @@ def main() -> None:
     write_json(target, results)
     table.parent.mkdir(parents=True, exist_ok=True)
     table.write_text(text, encoding="utf-8")
+    if not options.quick:
+        speed_plot.draw(results["cells"], speed_plot.PICTURE)
 
 
 if __name__ == "__main__":
