@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from shapely import MultiPolygon, Polygon
 
 from midrib.errors import GeometryTypeError, InvalidAreaError
-from midrib.kernels.rings import LARGEST, SMALLEST, Rings, normalise_rings, sizes
+from midrib.kernels.rings import LARGEST, SMALLEST, Rings, find_rings, normalise_rings, sizes
 from midrib.types import Bools, Floats, Ints
 
 __all__ = [
@@ -70,17 +70,15 @@ def pack_areas(polygons: NDArray[np.object_]) -> Packed:
 
 
 def pack_rings(area: Polygon) -> tuple[Floats, Ints]:
-    """Rows (x, y) of one polygon and where each of its rings starts; its Z is left out.
+    """Rows (x, y) of one valid polygon and where each of its rings starts; its Z is left out.
 
     It takes a third of the time that ``pack_areas`` takes for an array of one.
     """
     coordinates = shapely.get_coordinates(area)
-    n_holes = shapely.get_num_interior_rings(area)
-    starts = np.empty(n_holes + 2, dtype=np.intp)
-    starts[0], starts[-1] = 0, coordinates.shape[0]
-    if n_holes:
-        holes = shapely.get_interior_ring(area, np.arange(n_holes))
-        starts[1:-1] = starts[-1] - np.cumsum(shapely.get_num_points(holes)[::-1])[::-1]
+    starts = np.empty(shapely.get_num_interior_rings(area) + 2, dtype=np.intp)
+    if not find_rings(coordinates, starts):
+        rings = shapely.get_rings(area)
+        starts = offsets(shapely.get_num_coordinates(rings))
     return coordinates, starts
 
 

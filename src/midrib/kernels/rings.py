@@ -11,7 +11,7 @@ from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["LARGEST", "SMALLEST", "Rings", "normalise_rings", "sizes"]
+__all__ = ["LARGEST", "SMALLEST", "Rings", "find_rings", "normalise_rings", "sizes"]
 
 # Products of coordinates and their rounding errors neither overflow nor vanish up to here: the
 # outer triangle of a triangulation is 2^17 extents large, and errors are 2^-106 of a product.
@@ -30,6 +30,26 @@ class Rings(NamedTuple):
     ring_next: Ints
     origin: Ints
     n_shell: int
+
+
+@njit(entry=True, borrows=True)
+def find_rings(coordinates: Floats, starts: Ints) -> bool:
+    """Fill in where each ring of a valid polygon starts, and where the last one ends.
+
+    A ring ends where its first point comes back. False if it is not to be told in this way: the
+    first point stands there four times in a row.
+    """
+    row, n = 0, coordinates.shape[0]
+    for k in range(starts.size - 1):
+        last = row + 3
+        while last < n and not (
+            coordinates[last, 0] == coordinates[row, 0]
+            and coordinates[last, 1] == coordinates[row, 1]
+        ):
+            last += 1
+        starts[k], row = row, last + 1
+    starts[-1] = row
+    return row == n
 
 
 @njit(borrows=True)
