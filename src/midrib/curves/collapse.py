@@ -30,6 +30,7 @@ from midrib.errors import (
 )
 from midrib.ragged import without_holes
 from midrib.repair import overlaps, repaired
+from midrib.validity import is_valid
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -316,7 +317,7 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
     is_area = np.array([isinstance(area, Polygon | MultiPolygon) for area in areas], dtype=bool)
     only_areas = areas.copy()
     only_areas[~is_area] = None
-    is_valid = shapely.is_valid(only_areas)
+    valid = is_valid(only_areas)
     for i, area in enumerate(areas):
         if area is None or (isinstance(area, BaseGeometry) and area.is_empty):
             continue
@@ -325,7 +326,7 @@ def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
             log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
             continue
         polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-        if is_valid[i]:
+        if valid[i]:
             yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
         else:
             yield from apart(list(repaired_parts(i, polygons, log)), log)

@@ -16,6 +16,7 @@ from midrib.errors import ParameterError
 from midrib.kernels.batch import UNDONE, collapse_many
 from midrib.ragged import Packed, pack_rings
 from midrib.strip import PLANE
+from midrib.validity import is_valid_one
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -67,7 +68,7 @@ def line_of_one(area: Polygon) -> LineString | None:
     vertices. Interrupts need not be deferred: ``collapse_many`` is handed plain arrays and numbers
     and gives back a single array, see there.
     """
-    if area.is_empty or area.has_z or not shapely.is_valid(area):
+    if area.is_empty or area.has_z or not is_valid_one(area):
         return None
     found = usual_line(*pack_rings(area), PLANE)
     if found is None or found.loops:
