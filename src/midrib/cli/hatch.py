@@ -53,6 +53,7 @@ def hatch(
     exclude: cli.Exclude = None,
     history: cli.History = False,
     paper: cli.PaperSize = None,
+    no_problems: cli.NoProblems = False,
     overwrite: cli.Overwrite = False,
     quiet: cli.Quiet = False,
 ) -> None:
@@ -101,7 +102,7 @@ def hatch(
         track=lambda slopes: report.track(slopes, len(slopes), lambda _: 1, "hatching"),
         **options,
     )
-    for note in write_drawing(out, drawing, paper=paper):
+    for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
     if drawing.n_refused:

@@ -3,10 +3,12 @@
 Coordinates are those of the map. If both edges of an object have heights, lines have those of the
 slope, figures that of their place, and fills, which are level in DXF, the mean of their outline,
 which is drawn in space around them. A layout shows all of it at scale. Objects carry their
-identifier and the number of the stroke as extended data of the application MIDRIB.
+identifier and the number of the stroke as extended data of the application MIDRIB, marks of
+problems the whole sentence; they are on a layer that is not plotted.
 """
 
 import re
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,9 +34,10 @@ PROBLEMS = f"{APPLICATION}_PROBLEMS"
 UNITS = {1.0: 6, 0.3048: 2, 1200.0 / 3937.0: 21, 0.001: 4, 0.01: 5, 1000.0: 7}  # $INSUNITS
 FORBIDDEN = re.compile(r'[<>/\\":;?*|=`,]')  # in names of layers and blocks
 BLACK, RED = 7, 1  # colour 7 is black on white and white on black
-TEXT, MARGIN = 2.0, 10.0  # millimetres: height of notes, margin of the layout
+MARK, TEXT, MARGIN = 2.0, 1.5, 10.0  # millimetres: circles, height of notes, margin of the layout
 DASHES = ("DASHEDTINY", "DASHED2", "DASHED")  # LibreCAD draws no line types by other names
-STRING, INTEGER = 1000, 1071  # group codes of extended data
+STRING, INTEGER = 1000, 1071  # group codes of extended data,
+LONGEST = 250  # whose texts have no more characters than 255
 
 
 def write_dxf(path: "Path", drawing: "Drawing") -> None:
@@ -161,21 +164,25 @@ def block_of(document: "Document", figure: "Figure") -> str:
 
 
 def add_problems(document: "Document", drawing: "Drawing") -> None:
-    """Add notes where something is not drawn."""
-    places = [trouble for trouble in drawing.problems if trouble.where is not None]
-    if not places:
+    """Mark what is amiss: a circle, its kind and number beside it; the sentence is attached."""
+    if not any(trouble.where is not None for trouble in drawing.problems):
         return
-    document.layers.add(PROBLEMS, color=RED)
+    document.layers.add(PROBLEMS, color=RED).dxf.plot = 0
     space, attributes = document.modelspace(), {"layer": PROBLEMS}
-    for trouble in places:
-        at = trouble.where.coords[0][:2]  # type: ignore[union-attr]
-        space.add_point(at, attributes)
-        text = space.add_text(
-            f"{trouble.id}: {trouble.reason}",
-            height=TEXT * drawing.millimetre,
-            dxfattribs=attributes,
+    radius = 0.5 * MARK * drawing.millimetre
+    for number, trouble in enumerate(drawing.problems, start=1):
+        if trouble.where is None:
+            continue
+        x, y = trouble.where.coords[0][:2]
+        circle = space.add_circle((x, y), radius, attributes)
+        note = space.add_text(
+            f"{trouble.kind} {number}", height=TEXT * drawing.millimetre, dxfattribs=attributes
         )
-        text.set_placement(at)
+        note.set_placement((x + radius, y + radius))  # beside the circle, clear of it
+        told = textwrap.wrap(trouble.reason, LONGEST)
+        data = [(STRING, trouble.id), (STRING, trouble.kind), (INTEGER, number)]
+        for entity in (circle, note):
+            entity.set_xdata(APPLICATION, data + [(STRING, line) for line in told])
 
 
 def set_extents(document: "Document") -> None:

@@ -192,7 +192,8 @@ def edge_rows(drawing: Drawing, drawn: "list[Symbols]") -> "tuple[pa.Table, Geom
 
 
 def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
-    """Rows of the layer of problems."""
+    """Rows of the layer of problems, numbered as their marks in DXF are."""
+    numbers = pa.array(range(1, len(drawing.problems) + 1), type=pa.int64())
     table = {
         "area": [trouble.id for trouble in drawing.problems],
         "problem": [trouble.kind for trouble in drawing.problems],
@@ -201,7 +202,7 @@ def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
     columns = {name: pa.array(values, type=pa.string()) for name, values in table.items()}
     points = np.empty(len(drawing.problems), dtype=object)
     points[:] = [trouble.where for trouble in drawing.problems]
-    return pa.table(columns), points
+    return pa.table({"number": numbers} | columns), points
 
 
 def joined(parts: "list[Geometries]") -> "Geometries":
