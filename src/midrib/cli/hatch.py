@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 __all__ = ["hatch"]
 
 MOST_LISTED = 10  # problems told on the terminal
+TOLD = {  # what kinds of problems are called
+    "left out": "objects left out",
+    "unmatched": "places where strokes are left out or cut short",
+    "beyond": "places where strokes exceed a bound",
+}
 
 
 def hatch(
@@ -137,7 +142,7 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
 
 def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     """Say what has come of a run."""
-    from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
+    from midrib.formats.drawing.content import REFUSED
     from midrib.formats.units import unit_of
 
     found = Counter(trouble.kind for trouble in drawing.problems)
@@ -156,7 +161,6 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         report.say(f"refused: {trouble.id}: {trouble.reason}")
     if len(listed) > MOST_LISTED:
         report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
-    names = {LEFT_OUT: "objects left out", STROKE: "places where a stroke is amiss"}
     for kind, number in found.items():
         if kind != REFUSED:
-            report.say(f"note: {names.get(kind, f'doubts, {kind}')}: {number:,}")
+            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,}")

@@ -25,15 +25,14 @@ __all__ = [
     "LINES",
     "PROBLEMS",
     "REFUSED",
-    "STROKE",
     "Drawing",
     "Drawn",
     "Trouble",
     "layers_of",
 ]
 
-# Kinds of problems, beside those of readers: an object not drawn, not to be drawn, a stroke amiss.
-REFUSED, LEFT_OUT, STROKE = "refused", "left out", "stroke"
+# Kinds of problems, beside those of readers and checks: an object not drawn, or not to be drawn.
+REFUSED, LEFT_OUT = "refused", "left out"
 LINES, AREAS, EDGES, PROBLEMS = "strokes", "symbols", "outlines", "problems"
 GEOMETRY = "geom"
 
