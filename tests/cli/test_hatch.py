@@ -159,8 +159,64 @@ def test_objects_of_other_kinds_are_left_out_with_a_note(
     outcome = midrib(
         "hatch", slopes, tmp_path / "out.svg", "--top", "crest", "--standard", "pl-2021-wall"
     )
-    assert outcome.code == 0
+    assert outcome.code == 1
     assert "note: objects left out: 2" in outcome.err
+    reason = "standard 'pl-2021-wall' is made for wall, and IN has nothing of these; --kind says"
+    assert f"nothing is drawn: {reason}" in outcome.err
+
+
+def test_kinds_of_ones_own_reach_every_symbol_that_is_no_stroke(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    found = {}
+    for kind in ("gantry", "water-gate", "conveyor", "wall", "stairs"):
+        year = "2021" if kind in {"wall", "stairs"} else "2015"
+        out = tmp_path / f"{kind}.gpkg"
+        options = ["--top", "crest", "--kind", kind, "--standard", f"pl-{year}"]
+        assert midrib("hatch", slopes, out, *options).code == 0
+        table = pyogrio.read_dataframe(out, layer="strokes")
+        assert set(table["standard"]) == {f"pl-{year}-{kind}"}
+        found[kind] = len(table)
+    assert found["gantry"] == 2 * 3  # frame and diagonals of each
+    assert found["water-gate"] == 2
+    assert min(found["conveyor"], found["wall"], found["stairs"]) > 10
+
+
+def test_a_field_tells_kinds(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    table = gpd.read_file(slopes).assign(what=["gantry", "dyke"])
+    table.to_file(tmp_path / "told.gpkg")
+    out = tmp_path / "out.gpkg"
+    options = ["--top", "crest", "--standard", "pl-2015", "--kind"]
+    assert midrib("hatch", tmp_path / "told.gpkg", out, *options, "what").code == 0
+    drawn = pyogrio.read_dataframe(out, layer="strokes")
+    assert set(drawn["kind"]) == {"gantry", "dyke"}
+    table.assign(what=["gantry", "bridge"]).to_file(tmp_path / "told.gpkg")
+    for name, sentence in (
+        ("what", "field 'what' of object"),
+        ("bridge", "kind is 'bridge', expected one of slope-unreinforced"),
+    ):
+        wrong = midrib("hatch", tmp_path / "told.gpkg", out, *options, name, "--overwrite")
+        assert wrong.code == 2
+        assert sentence in wrong.err
+        assert "conveyor, gantry, water-gate" in wrong.err
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--offset", "1e6"], "offset is 1e+06 gaps from either end"),
+        (["--exclude", "all.gpkg"], "zones of exclude hide every stroke"),
+    ],
+)
+def test_when_nothing_is_drawn_the_reason_is_said(
+    options: list[str], sentence: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    write(tmp_path / "all.gpkg", [shapely.box(-9, -9, 99, 99).wkt], kind="Polygon")
+    told = [tmp_path / option if option.endswith(".gpkg") else option for option in options]
+    outcome = midrib("hatch", slopes, tmp_path / "out.gpkg", "--top", "crest", *told)
+    assert outcome.code == 1
+    assert f": {sentence}" in outcome.err.partition("nothing is drawn: ")[2]
+    assert set(layer_names(tmp_path / "out.gpkg")) >= {"outlines", "problems"}
 
 
 @pytest.mark.parametrize(

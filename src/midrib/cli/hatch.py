@@ -55,6 +55,7 @@ def hatch(
     toe: cli.Toe = None,
     start: cli.Start = None,
     end: cli.End = None,
+    kind: cli.Kind = None,
     exclude: cli.Exclude = None,
     history: cli.History = False,
     paper: cli.PaperSize = None,
@@ -91,7 +92,7 @@ def hatch(
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)
     slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
+        source, layer=layer, top=top, toe=toe, start=start, end=end, kind=kind, history=history
     )
     if exclude is not None:
         options["exclude"] = zones_in(exclude, slopes[0].crs if slopes else None)
@@ -110,7 +111,9 @@ def hatch(
     for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
-    if drawing.n_refused:
+    if not drawing.has_symbols:
+        report.say(f"nothing is drawn: {why_nothing(drawing, standard)}")
+    if drawing.n_refused or not drawing.has_symbols:
         raise typer.Exit(1)
 
 
@@ -140,6 +143,23 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 
 
+def why_nothing(drawing: "Drawing", standard: str) -> str:
+    """Reason why a drawing has no stroke and no symbol."""
+    from midrib.formats.drawing.content import LEFT_OUT
+    from midrib.hatching.standards import standards_named
+
+    if not drawing.objects and not drawing.problems:
+        return "IN has no slopes; those that have ended come with --history"
+    if any(trouble.kind == LEFT_OUT for trouble in drawing.problems) and not drawing.objects:
+        kinds = dict.fromkeys(kind for known in standards_named(standard) for kind in known.kinds)
+        return (
+            f"standard {standard!r} is made for {', '.join(kinds)}, and IN has nothing of these; "
+            "--kind says what its objects are"
+        )
+    first = drawing.problems[0] if drawing.problems else None
+    return "the objects of IN have no stroke" if first is None else f"{first.id}: {first.reason}"
+
+
 def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     """Say what has come of a run."""
     from midrib.formats.drawing.content import REFUSED
@@ -154,8 +174,6 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:
         report.say("note: IN does not say what its unit is, it is taken for the metre")
-    if not drawing.objects and not drawing.problems:
-        report.say("note: IN has no slopes; those that have ended come with --history")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
     for trouble in listed[:MOST_LISTED]:
         report.say(f"refused: {trouble.id}: {trouble.reason}")

@@ -98,6 +98,14 @@ class Drawing:
         return len({trouble.id for trouble in self.problems if trouble.kind == REFUSED})
 
     @property
+    def has_symbols(self) -> bool:
+        """Whether there is a stroke or a symbol in it; outlines are none."""
+        every = (drawn.symbols for drawn in self.objects)
+        return any(
+            s.lines.size or s.areas.size or any(p.size.size for p in s.placed) for s in every
+        )
+
+    @property
     def n_raised(self) -> int:
         """Number of objects whose heights are known."""
         return sum(drawn.relief is not None for drawn in self.objects)
