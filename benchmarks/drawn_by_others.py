@@ -89,7 +89,10 @@ def angle(ways: Floats) -> Floats:
 
 
 def main() -> None:
-    """Write the table into the page."""
+    """Write the table into the page, if the drawing is there."""
+    if not SOURCE.exists():
+        print(f"{SOURCE.name} is absent: the page stays as it is")
+        return
     text = PAGE.read_text(encoding="utf-8")
     before, _, rest = text.partition(BEGIN)
     after = rest.partition(END)[2]
