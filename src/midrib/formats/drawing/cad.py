@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.heights import Relief
     from midrib.hatching.drawn import Figure
     from midrib.hatching.standards import Standard
+    from midrib.types import Floats
 
 __all__ = ["write_dxf"]
 
@@ -58,7 +59,8 @@ def write_dxf(path: "Path", drawing: "Drawing") -> None:
         add_object(document, drawn)
     add_problems(document, drawing)
     set_extents(document)
-    add_layout(document, drawing)
+    low, high = drawing.bounds
+    add_layout(document, low, high, drawing.scale, drawing.metres_per_unit)
     document.saveas(path)
 
 
@@ -196,10 +198,12 @@ def set_extents(document: "Document") -> None:
         document.header["$EXTMIN"], document.header["$EXTMAX"] = found.extmin, found.extmax
 
 
-def add_layout(document: "Document", drawing: "Drawing") -> None:
-    """Set the first layout up so that it shows everything at scale."""
-    low, high = drawing.bounds
-    size = np.maximum((high - low) / drawing.millimetre, 1.0)
+def add_layout(
+    document: "Document", low: "Floats", high: "Floats", scale: float, metres_per_unit: float
+) -> None:
+    """Set the first layout up so that it shows what lies between two corners at scale."""
+    millimetre = scale / 1000.0 / metres_per_unit
+    size = np.maximum((high - low) / millimetre, 1.0)
     layout = document.paperspace("Layout1")
     sheet = size + 2.0 * MARGIN
     layout.page_setup(size=tuple(sheet), margins=(0, 0, 0, 0), units="mm")
@@ -207,18 +211,14 @@ def add_layout(document: "Document", drawing: "Drawing") -> None:
         center=tuple(sheet / 2.0),
         size=tuple(size),
         view_center_point=tuple((low + high) / 2.0),
-        view_height=float(high[1] - low[1]) or drawing.millimetre,
+        view_height=float(high[1] - low[1]) or millimetre,
         status=1,
     )
     # LibreCAD prints the model on paper with the limits of the layout, in units of the drawing.
-    layout.dxf.limmin, layout.dxf.limmax = (
-        (0.0, 0.0),
-        tuple(sheet / 1000.0 / drawing.metres_per_unit),
-    )
-    document.header["$PSVPSCALE"] = 1.0 / drawing.scale
-    margin = MARGIN / 1000.0 / drawing.metres_per_unit
-    document.header["$PINSBASE"] = (*(margin - low / drawing.scale), 0.0)
+    layout.dxf.limmin, layout.dxf.limmax = (0.0, 0.0), tuple(sheet / 1000.0 / metres_per_unit)
+    document.header["$PSVPSCALE"] = 1.0 / scale
+    margin = MARGIN / 1000.0 / metres_per_unit
+    document.header["$PINSBASE"] = (*(margin - low / scale), 0.0)
     document.set_modelspace_vport(
-        height=1.1 * max(float(high[1] - low[1]), drawing.millimetre),
-        center=tuple((low + high) / 2.0),
+        height=1.1 * max(float(high[1] - low[1]), millimetre), center=tuple((low + high) / 2.0)
     )
