@@ -16,7 +16,7 @@ from midrib.formats.slopes import read_slopes
 from midrib.hatching import checking
 from midrib.hatching.checking import CHECKS, Finding, check_slopes, falls
 from midrib.hatching.slope import Slope, SlopeKind, SlopeProblem
-from midrib.hatching.standards import Standard
+from midrib.hatching.standard import Standard
 
 FOLDER = Path(__file__).parents[3] / "shared" / "data"
 REAL = pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")

@@ -26,7 +26,7 @@ from midrib.hatching.keys import STROKED
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.strip import Strip
     from midrib.types import Bools, Floats
 

@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
-from midrib.hatching.standards import Standard
+from midrib.hatching.standard import Standard
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.content import Drawing, Drawn
     from midrib.formats.drawing.heights import Relief
     from midrib.hatching.drawn import Figure
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.types import Floats
 
 __all__ = ["write_dxf"]

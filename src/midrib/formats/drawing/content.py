@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.heights import Relief
     from midrib.formats.reading import Geometries
     from midrib.hatching.drawn import Symbols
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.types import Bools, Floats, Ints
 
 __all__ = [

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from midrib.hatching.sharing import Shared
     from midrib.hatching.slope import Slope, SlopeProblem
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
 
 __all__ = ["check_standard", "draw_slopes", "try_out"]
 
