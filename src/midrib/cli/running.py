@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from midrib.checks import check_library
 from midrib.cli.options import Engine
-from midrib.cli.output import summary
+from midrib.cli.summary import summary
 from midrib.engines.batches import Counts
 from midrib.engines.jobs import logged, plan
 from midrib.engines.partitions import partitions_of
