@@ -8,7 +8,7 @@ import pyogrio
 import pytest
 import shapely
 
-from midrib.formats.reading import layer_names
+from midrib.formats.contents import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, write

@@ -9,7 +9,7 @@ import shapely
 from ezdxf.filemanagement import readfile
 from pyarrow import csv
 
-from midrib.formats.reading import layer_names
+from midrib.formats.contents import layer_names
 from tests.cli.commands import Runner
 from tests.formats.layers import read_all
 from tests.towers.scans import CONE, dirty

@@ -19,13 +19,14 @@ from shapely.affinity import translate
 
 from midrib import standard
 from midrib.errors import ParameterError
+from midrib.formats.contents import layer_names
 from midrib.formats.crs import system_of
 from midrib.formats.drawing.content import LINES, PROBLEMS, Drawing, Trouble, layers_of
 from midrib.formats.drawing.heights import relief_of
 from midrib.formats.drawing.qgis import style_of
 from midrib.formats.drawing.sheet import AROUND, MARGIN, pages_of
 from midrib.formats.drawing.write import check_places, write_drawing
-from midrib.formats.reading import layer_names, open_layer
+from midrib.formats.reading import open_layer
 from tests.formats.drawings import EAST, NORTH, drawing
 from tests.hatching.standin import mound, rectangle
 

@@ -132,7 +132,8 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     """
     from shapely import MultiPolygon, Polygon
 
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import is_same_plane
 
     with open_layer(path, choose_layer(path, None, "--exclude")) as source:

@@ -15,8 +15,8 @@ from midrib.engines.batches import Counts
 from midrib.engines.parts import kinds_in, tables_of
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
+from midrib.formats.contents import column_names
 from midrib.formats.endings import endings_with_m, format_of
-from midrib.formats.reading import column_names
 from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import (
     KINDS,

@@ -14,7 +14,7 @@ from midrib.engines.jobs import logged, plan
 from midrib.engines.partitions import partitions_of
 from midrib.engines.parts import REFUSED, Work
 from midrib.errors import ParameterError
-from midrib.formats.reading import count_features
+from midrib.formats.contents import count_features
 from midrib.formats.writing import staged
 
 if TYPE_CHECKING:

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 from midrib.checks import check_library
 from midrib.errors import ParameterError
+from midrib.formats.contents import column_names
 from midrib.formats.drawing.cad import write_dxf
 from midrib.formats.drawing.cartographic import write_cartographic
 from midrib.formats.drawing.content import AREAS, EDGES, LINES, PROBLEMS, Drawing, layers_of
 from midrib.formats.drawing.qgis import add_styles
 from midrib.formats.drawing.sheet import PAPERS, write_sheet
 from midrib.formats.endings import format_of
-from midrib.formats.reading import column_names
 from midrib.formats.writing import check_free, staged, write_layer
 
 if TYPE_CHECKING:
