@@ -63,7 +63,7 @@ def hatch(
     overwrite: cli.Overwrite = False,
     quiet: cli.Quiet = False,
 ) -> None:
-    """Hatch slopes at map scale, and draw walls, stairs and conveyors."""
+    """Hatch slopes at map scale; draw walls, stairs, conveyors, gantries and water gates."""
     from midrib.cli.report import Report
     from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
     from midrib.formats.drawing.write import check_places, write_drawing
