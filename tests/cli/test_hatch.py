@@ -132,6 +132,17 @@ def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midri
     assert len(pyogrio.read_dataframe(out, layer="strokes")) > 20
 
 
+def test_marks_of_problems_can_be_left_out(tmp_path: Path, midrib: Runner) -> None:
+    source = register(tmp_path, [*AREAS, BOW_TIE], [*TOPS, "LINESTRING (0 60, 9 69)"])
+    marked, plain = tmp_path / "marked.dxf", tmp_path / "plain.dxf"
+    assert midrib("hatch", source, marked, "--top", "crest").code == 1
+    outcome = midrib("hatch", source, plain, "--top", "crest", "--no-problems")
+    assert outcome.code == 1
+    assert "refused: " in outcome.err
+    assert "MIDRIB_PROBLEMS" in marked.read_text()
+    assert "MIDRIB_PROBLEMS" not in plain.read_text()
+
+
 def test_a_standard_of_ones_own_is_given_by_its_file(
     slopes: Path, tmp_path: Path, midrib: Runner
 ) -> None:
