@@ -295,6 +295,13 @@ def test_dxf_layers_have_weights_colours_and_dashes(document: Document) -> None:
     assert list(dash.simplified_line_pattern()) == [1.25, 0.5]  # 2.5 and 1 mm at 1:500
 
 
+def test_dxf_dashes_go_on_round_vertices(document: Document) -> None:
+    chains = document.modelspace().query("LWPOLYLINE")
+    assert len(chains) > 10
+    assert all(chain.dxf.flags & 128 for chain in chains)
+    assert {chain.dxf.flags & 1 for chain in chains} == {0, 1}  # open and closed
+
+
 def test_dxf_figures_are_blocks(document: Document) -> None:
     circles = document.modelspace().query("INSERT[name=='MIDRIB_CIRCLE']")
     sizes = [circle.dxf.xscale for circle in circles]

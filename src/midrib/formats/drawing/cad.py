@@ -37,6 +37,7 @@ FORBIDDEN = re.compile(r'[<>/\\":;?*|=`,]')  # in names of layers and blocks
 BLACK, RED = 7, 1  # colour 7 is black on white and white on black
 MARK, TEXT, MARGIN = 2.0, 1.5, 10.0  # millimetres: circles, height of notes, margin of the layout
 DASHES = ("DASHEDTINY", "DASHED2", "DASHED")  # LibreCAD draws no line types by other names
+DASHES_GO_ON = 128  # flag of flat polylines: line types do not begin anew at each vertex
 STRING, INTEGER = 1000, 1071  # group codes of extended data,
 LONGEST = 250  # whose texts have no more characters than 255
 
@@ -141,9 +142,11 @@ def add_chain(space: Any, line: Any, attributes: dict[str, Any], relief: "Relief
         if len(corners) == 2:
             return space.add_line(*corners, dxfattribs=attributes)
         return space.add_polyline3d(corners, close=closed, dxfattribs=attributes)
-    return space.add_lwpolyline(
+    chain = space.add_lwpolyline(
         points[: -1 if closed else None].tolist(), close=closed, dxfattribs=attributes
     )
+    chain.dxf.flags |= DASHES_GO_ON
+    return chain
 
 
 def block_of(document: "Document", figure: "Figure") -> str:
