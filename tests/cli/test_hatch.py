@@ -201,6 +201,8 @@ def test_a_field_tells_kinds(slopes: Path, tmp_path: Path, midrib: Runner) -> No
     assert midrib("hatch", tmp_path / "told.gpkg", out, *options, "what").code == 0
     drawn = pyogrio.read_dataframe(out, layer="strokes")
     assert set(drawn["kind"]) == {"gantry", "dyke"}
+    again = midrib("hatch", tmp_path / "told.gpkg", out, *options, "what", "--overwrite")
+    assert f"{len(drawn) - 3} strokes and 1 symbols of 2 objects" in again.err
     table.assign(what=["gantry", "bridge"]).to_file(tmp_path / "told.gpkg")
     for name, sentence in (
         ("what", "field 'what' of object"),

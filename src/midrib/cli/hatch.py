@@ -168,9 +168,11 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
 
     found = Counter(trouble.kind for trouble in drawing.problems)
     strokes = sum(0 if drawn.is_long is None else len(drawn.is_long) for drawn in drawing.objects)
+    others = sum(drawn.symbols.count for drawn in drawing.objects if drawn.is_long is None)
+    drawn_too = f" and {others:,} symbols" if others else ""
     report.say(
-        f"{strokes:,} strokes of {len(drawing.objects):,} objects at 1:{drawing.scale:g}, "
-        f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
+        f"{strokes:,} strokes{drawn_too} of {len(drawing.objects):,} objects "
+        f"at 1:{drawing.scale:g}, {drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
     report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:

@@ -91,6 +91,11 @@ class Symbols:
     edges: "NDArray[np.object_]"
     standard: Standard
 
+    @property
+    def count(self) -> int:
+        """How many lines, areas and figures there are, the outline apart."""
+        return self.lines.size + self.areas.size + sum(p.size.size for p in self.placed)
+
     def flat(self) -> "Symbols":
         """Return the same drawing with figures made lines and areas."""
         lines, areas = Pen(), Pen()

@@ -100,10 +100,7 @@ class Drawing:
     @property
     def has_symbols(self) -> bool:
         """Whether there is a stroke or a symbol in it; outlines are none."""
-        every = (drawn.symbols for drawn in self.objects)
-        return any(
-            s.lines.size or s.areas.size or any(p.size.size for p in s.placed) for s in every
-        )
+        return any(drawn.symbols.count for drawn in self.objects)
 
     @property
     def n_raised(self) -> int:
