@@ -41,6 +41,7 @@ quality: $(VENV)/ready
 	$(BIN)/python benchmarks/bays.py
 	$(BIN)/python benchmarks/limit.py
 	$(BIN)/python benchmarks/hatching.py
+	$(BIN)/python benchmarks/hatching_limits.py
 	$(BIN)/python benchmarks/drawn_by_others.py
 	$(BIN)/python benchmarks/towers.py
 

@@ -19,28 +19,23 @@ from numpy.typing import NDArray
 from shapely import LineString
 
 from midrib import Slope, read_slopes
-from midrib.hatching import hatch
+from midrib.hatching import Hatching, Rule, hatch
+from midrib.hatching.rule import with_mean_gap
 from tables import ROOT, markdown
 
-__all__ = ["gap_of", "starts_along", "strokes_of"]
+__all__ = ["gap_of", "off", "starts_along", "strokes_of"]
 
 Floats = NDArray[np.float64]
 SOURCE = ROOT.parent / "shared" / "data" / "pl_szkoleniowy_skarpa_kreski.gpkg"
 PAGE = ROOT / "docs" / "registers.md"
 BEGIN, END = "<!-- drawing -->", "<!-- end of drawing -->"
-SCALE = 1000.0  # a millimetre on paper is a metre: spacings are in metres
-FIFTH, FEW = 0.2, 10  # the top is densified to this share of its length if its vertices are few
 STANDARD = "pl-2021-slope-unreinforced"
 HEAD = ("strokes", "count", "gap, m", "theirs within 5° of the nearest of ours", "worst")
 
 
 def gap_of(slope: Slope) -> float:
     """Gap b of the plugin: half the mean distance of the top's vertices from the toe."""
-    top = shapely.force_2d(slope.top)
-    if shapely.get_num_coordinates(top) < FEW:
-        top = shapely.segmentize(top, FIFTH * top.length)
-    corners = shapely.points(shapely.get_coordinates(top))
-    return float(shapely.distance(corners, slope.toe).mean()) / 2.0
+    return with_mean_gap(Rule(factor=0.5), slope.top, slope.toe).least_gap
 
 
 def starts_along(slope: Slope, gap: float) -> Floats:
@@ -62,25 +57,29 @@ def rows() -> list[list[str]]:
     """Rows of the table: theirs, then ours in several ways."""
     (slope,), _ = read_slopes(SOURCE)
     start, stop = strokes_of(SOURCE)
-    theirs = angle(stop - start)
     step = float(np.median(np.hypot(*np.diff(start, axis=0).T)))
-    gap = gap_of(slope)
     table = [["theirs", str(len(start)), f"{step:.2f}", "", ""]]
-    by_rule = {"scale": SCALE, "spacing": gap}
     ways: dict[str, dict[str, Any]] = {
         f"ours by `{STANDARD}` at 1:500": {},
-        "ours by it, at right angles to the top": {"top_share": 1.0},
-        f"ours with the gap of their rule, {gap:.3f} m": by_rule,
-        "ours with it, at right angles to the top": by_rule | {"top_share": 1.0},
+        "the same, at right angles to the top": {"top_share": 1.0},
+        'ours with `rule="mean"`': {"rule": "mean"},
+        "the same, at right angles to both edges alike": {"rule": "mean", "top_share": 0.0},
     }
     for name, options in ways.items():
         ours = hatch(slope.strip(), STANDARD, **options)
-        near = shapely.STRtree(shapely.points(ours.on_top)).nearest(shapely.points(start))
-        off = abs((angle(ours.on_toe - ours.on_top)[near] - theirs + 90.0) % 180.0 - 90.0)
-        within = f"{np.count_nonzero(off <= 5.0)} of {len(start)}"
+        turned = off(ours, start, stop)
+        within = f"{np.count_nonzero(turned <= 5.0)} of {len(start)}"
         spacing = f"{np.median(ours.spacing):.2f}"
-        table.append([name, str(len(ours.strokes)), spacing, within, f"{off.max():.0f}°"])
+        table.append([name, str(len(ours.strokes)), spacing, within, f"{turned.max():.0f}°"])
     return table
+
+
+def off(ours: Hatching, start: Floats, stop: Floats) -> Floats:
+    """Degrees that each of their strokes is turned from the one of ours that starts nearest."""
+    near = shapely.STRtree(shapely.points(ours.on_top)).nearest(shapely.points(start))
+    turn = angle(ours.on_toe - ours.on_top)[near] - angle(stop - start)
+    turned: Floats = abs((turn + 90.0) % 180.0 - 90.0)
+    return turned
 
 
 def angle(ways: Floats) -> Floats:
@@ -90,7 +89,10 @@ def angle(ways: Floats) -> Floats:
 
 
 def main() -> None:
-    """Write the table into the page."""
+    """Write the table into the page, if the drawing is there."""
+    if not SOURCE.exists():
+        print(f"{SOURCE.name} is absent: the page stays as it is")
+        return
     text = PAGE.read_text(encoding="utf-8")
     before, _, rest = text.partition(BEGIN)
     after = rest.partition(END)[2]

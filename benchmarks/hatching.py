@@ -11,13 +11,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-import pyogrio
 import shapely
 from numpy.typing import NDArray
 from shapely import LineString
 
 from hatch_slopes import KINDS, Slope, noisy, random_slopes, real_dutch, real_polish, shapes
-from midrib import Strip, minimal_radii, read_slopes
+from midrib import Strip, minimal_radii
 from midrib.errors import MidribError
 from midrib.hatching import Hatching, Rule, hatch
 from midrib.hatching.measures import Measures, measure, measure_strokes, untold
@@ -29,7 +28,6 @@ Ends = tuple[Floats, Floats]
 PAGE = ROOT / "docs" / "hatching.md"
 BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 SEED, COUNT = 1000, 1200
-SHARED = ROOT.parent / "shared" / "data"
 PICTURED = ("L_top_outer", "s_curve", "bay", "spur_bottom")
 HEAD = (
     "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
@@ -375,44 +373,6 @@ def main() -> int:
     return 0
 
 
-def reference() -> str:
-    """Our strokes beside those of a published drawing, as sentences; nothing without the file.
-
-    A stroke of theirs is held against the nearest one of ours, by where they start on the top.
-    """
-    path = SHARED / "pl_szkoleniowy_skarpa_kreski.gpkg"
-    if not path.exists():
-        return ""
-    drawn = pyogrio.read_dataframe(path, layer="kreski_wzorcowe").geometry.to_numpy()
-    drawn = drawn[shapely.get_num_coordinates(drawn) == 2]
-    start, stop = (shapely.get_coordinates(shapely.get_point(drawn, k)) for k in (0, 1))
-    step = float(np.median(np.hypot(*np.diff(start, axis=0).T)))
-    theirs = np.degrees(np.arctan2(*(stop - start).T[::-1]))
-    (slope,), _ = read_slopes(path)
-    told = []
-    ways: dict[str, dict[str, float]] = {
-        "by the standard": {},
-        "with its spacing": {"spacing": step, "scale": 1000.0},
-        "with its spacing and at right angles to the top": {
-            "spacing": step, "scale": 1000.0, "top_share": 1.0,
-        },
-    }  # fmt: skip
-    for name, options in ways.items():
-        ours = hatch(slope.strip(), **options)  # type: ignore[arg-type]
-        angle = np.degrees(np.arctan2(*(ours.on_toe - ours.on_top).T[::-1]))
-        near = shapely.STRtree(shapely.points(ours.on_top)).nearest(shapely.points(start))
-        off = abs((angle[near] - theirs + 90.0) % 180.0 - 90.0)
-        told.append(
-            f"{name} ours has {len(ours.strokes)} strokes, {np.median(ours.spacing):.2f} m apart, "
-            f"and {np.count_nonzero(off <= 5.0)} of theirs are within 5° of the nearest one of "
-            f"ours, the worst {off.max():.0f}° off"
-        )
-    return (
-        f"The reference drawing of the Polish training data has {len(drawn)} strokes, {step:.2f} m "
-        f"apart: {'; '.join(told)}.\n\n"
-    )
-
-
 def on_paper(rows: list[Row]) -> str:
     """How many neighbours are nearer on paper than the standard's least gap, as a sentence."""
     near, all_gaps = 0, 0
@@ -454,7 +414,7 @@ def page(
         f"Noise of a tenth of the width on the top turns the strokes of {len(shaken)} slopes by "
         f"{np.median(shaken):.1f}° at most in half of them, by {np.percentile(shaken, 95):.1f}° in "
         f"19 of 20, by {shaken.max():.1f}° in the worst.\n\n"
-        f"{reference()}{paper}"
+        f"{paper}"
         f"One core, CPU time, triangulation and middle line included ({machine_text()}):\n\n"
         f"{markdown(('slope', 'strokes', 'strokes a second'), rates)}"
     )

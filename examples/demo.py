@@ -15,7 +15,8 @@ from rich.table import Table
 import midrib
 from midrib import measures
 from midrib.figures.draw import draw_collapse
-from midrib.formats.reading import Source, layer_names, open_layer
+from midrib.formats.contents import layer_names
+from midrib.formats.reading import Source, open_layer
 from midrib.formats.units import is_geographic
 from midrib.formats.writing import Features, write_layer
 

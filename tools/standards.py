@@ -52,7 +52,8 @@ SYMBOLS = """## Symbols
 Wedges, triangles, forks and heads are as wide as the standard says, narrower where the next stroke
 or the boundary is near: each has a part of the top for itself, and its sides are inside the area,
 so symbols do not overlap where strokes do not. The options `--symbol` and `--symbol-width` of
-`midrib hatch` draw any of them by any standard of strokes. Here they are 1.2 mm wide.
+`midrib hatch` draw any of them by any standard of strokes. Here they are 1.6 mm wide, and the
+standard is `tadpole`, which draws no outline: the line of the top would make a fork a triangle.
 """
 OWN = """## A standard of your own
 
@@ -190,9 +191,9 @@ def main() -> None:
     """Draw everything and write the page."""
     for known in standards():
         draw_picture(f"standard-{known.name}", known)
-    base = standard("pl-2021-slope-reinforced")
+    base = standard("tadpole")
     for symbol in STROKED:
-        draw_picture(f"symbol-{symbol}", base.with_values(symbol=symbol, symbol_width=1.2))
+        draw_picture(f"symbol-{symbol}", base.with_values(symbol=symbol, symbol_width=1.6))
     (DOCS / "standards.md").write_text(page(), encoding="utf-8")
 
 

@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from midrib.formats.slopes import Slope, read_slopes
     from midrib.hatching.checking import Finding, check_slopes
     from midrib.hatching.hatch import Hatching, hatch
-    from midrib.hatching.standards import Standard, standard, standards
+    from midrib.hatching.standard import Standard
+    from midrib.hatching.standards import standard, standards
     from midrib.profiles import Profile, add_widths, profile
     from midrib.scans import tower_axis
     from midrib.strip import Strip, split
@@ -83,7 +84,7 @@ HOME = {
     "Skeleton": "midrib.curves.skeleton",
     "Slope": "midrib.formats.slopes",
     "SpaceCurve": "midrib.curves.space",
-    "Standard": "midrib.hatching.standards",
+    "Standard": "midrib.hatching.standard",
     "Strip": "midrib.strip",
     "add_widths": "midrib.profiles",
     "check_slopes": "midrib.hatching.checking",

@@ -1,5 +1,6 @@
 """The rule by which others have drawn a slope: it gives their strokes."""
 
+import numpy as np
 import pytest
 import shapely
 
@@ -21,13 +22,17 @@ def test_their_rule_gives_the_places_of_their_strokes() -> None:
     assert off.max() < 2e-3  # the drawing has millimetres
 
 
-def test_with_their_gap_at_right_angles_to_the_top_ours_are_theirs() -> None:
+def test_by_the_rule_of_the_mean_ours_are_theirs() -> None:
+    """Counts and spacing within a tenth, directions within 5 degrees but at one corner of 11."""
     (slope,), _ = read_slopes(drawn.SOURCE)
     start, stop = drawn.strokes_of(drawn.SOURCE)
-    gap = drawn.gap_of(slope)
-    ours = hatch(slope.strip(), scale=drawn.SCALE, spacing=gap, top_share=1.0)
+    step = np.median(np.hypot(*np.diff(start, axis=0).T))
+    ours = hatch(slope.strip(), "pl-2021-slope-unreinforced", scale=500.0, rule="mean")
+    assert not ours.problems
     assert len(ours.strokes) == pytest.approx(len(start), rel=0.1)
-    near = shapely.STRtree(shapely.points(ours.on_top)).nearest(shapely.points(start))
-    turn = drawn.angle(ours.on_toe - ours.on_top)[near] - drawn.angle(stop - start)
-    off = abs((turn + 90.0) % 180.0 - 90.0)
-    assert (off <= 5.0).sum() >= 52
+    assert ours.spacing == pytest.approx(np.full(ours.spacing.size, step), rel=0.1)
+    turned = drawn.off(ours, start, stop)
+    assert (turned <= 5.0).sum() >= 52
+    corner = shapely.Point(slope.top.coords[1])
+    (row,) = np.flatnonzero(turned > 5.0)
+    assert shapely.distance(corner, shapely.Point(start[row])) < step

@@ -12,7 +12,7 @@ from pyarrow import csv
 from midrib import measures
 from midrib.cli.app import app
 from midrib.cli.job import with_columns
-from midrib.formats.reading import layer_names
+from midrib.formats.contents import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, crs_name, read_all, write

@@ -10,8 +10,9 @@ import shapely
 
 from midrib.engines.batches import collapse_batch
 from midrib.engines.recipe import Recipe
+from midrib.formats.contents import layer_names
 from midrib.formats.geoparquet import GeoParquetWriter
-from midrib.formats.reading import layer_names, open_layer
+from midrib.formats.reading import open_layer
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.engines.layers import areas, batch_of, contents, recipe_of, write_areas

@@ -8,7 +8,7 @@ import pyogrio
 import pytest
 import shapely
 
-from midrib.formats.reading import layer_names
+from midrib.formats.contents import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
 from tests.formats.layers import RD_NEW, write
@@ -132,6 +132,17 @@ def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midri
     assert len(pyogrio.read_dataframe(out, layer="strokes")) > 20
 
 
+def test_marks_of_problems_can_be_left_out(tmp_path: Path, midrib: Runner) -> None:
+    source = register(tmp_path, [*AREAS, BOW_TIE], [*TOPS, "LINESTRING (0 60, 9 69)"])
+    marked, plain = tmp_path / "marked.dxf", tmp_path / "plain.dxf"
+    assert midrib("hatch", source, marked, "--top", "crest").code == 1
+    outcome = midrib("hatch", source, plain, "--top", "crest", "--no-problems")
+    assert outcome.code == 1
+    assert "refused: " in outcome.err
+    assert "MIDRIB_PROBLEMS" in marked.read_text()
+    assert "MIDRIB_PROBLEMS" not in plain.read_text()
+
+
 def test_a_standard_of_ones_own_is_given_by_its_file(
     slopes: Path, tmp_path: Path, midrib: Runner
 ) -> None:
@@ -159,8 +170,66 @@ def test_objects_of_other_kinds_are_left_out_with_a_note(
     outcome = midrib(
         "hatch", slopes, tmp_path / "out.svg", "--top", "crest", "--standard", "pl-2021-wall"
     )
-    assert outcome.code == 0
+    assert outcome.code == 1
     assert "note: objects left out: 2" in outcome.err
+    reason = "standard 'pl-2021-wall' is made for wall, and IN has nothing of these; --kind says"
+    assert f"nothing is drawn: {reason}" in outcome.err
+
+
+def test_kinds_of_ones_own_reach_every_symbol_that_is_no_stroke(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    found = {}
+    for kind in ("gantry", "water-gate", "conveyor", "wall", "stairs"):
+        year = "2021" if kind in {"wall", "stairs"} else "2015"
+        out = tmp_path / f"{kind}.gpkg"
+        options = ["--top", "crest", "--kind", kind, "--standard", f"pl-{year}"]
+        assert midrib("hatch", slopes, out, *options).code == 0
+        table = pyogrio.read_dataframe(out, layer="strokes")
+        assert set(table["standard"]) == {f"pl-{year}-{kind}"}
+        found[kind] = len(table)
+    assert found["gantry"] == 2 * 3  # frame and diagonals of each
+    assert found["water-gate"] == 2
+    assert min(found["conveyor"], found["wall"], found["stairs"]) >= 10
+
+
+def test_a_field_tells_kinds(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    table = gpd.read_file(slopes).assign(what=["gantry", "dyke"])
+    table.to_file(tmp_path / "told.gpkg")
+    out = tmp_path / "out.gpkg"
+    options = ["--top", "crest", "--standard", "pl-2015", "--kind"]
+    assert midrib("hatch", tmp_path / "told.gpkg", out, *options, "what").code == 0
+    drawn = pyogrio.read_dataframe(out, layer="strokes")
+    assert set(drawn["kind"]) == {"gantry", "dyke"}
+    again = midrib("hatch", tmp_path / "told.gpkg", out, *options, "what", "--overwrite")
+    assert f"{len(drawn) - 3} strokes and 1 symbols of 2 objects" in again.err
+    table.assign(what=["gantry", "bridge"]).to_file(tmp_path / "told.gpkg")
+    for name, sentence in (
+        ("what", "field 'what' of object"),
+        ("bridge", "kind is 'bridge', expected one of slope-unreinforced"),
+    ):
+        wrong = midrib("hatch", tmp_path / "told.gpkg", out, *options, name, "--overwrite")
+        assert wrong.code == 2
+        assert sentence in wrong.err
+        assert "conveyor, gantry, water-gate" in wrong.err
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        (["--offset", "1e6"], "offset is 1e+06 gaps from either end"),
+        (["--exclude", "all.gpkg"], "zones of exclude hide every stroke"),
+    ],
+)
+def test_when_nothing_is_drawn_the_reason_is_said(
+    options: list[str], sentence: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    write(tmp_path / "all.gpkg", [shapely.box(-9, -9, 99, 99).wkt], kind="Polygon")
+    told = [tmp_path / option if option.endswith(".gpkg") else option for option in options]
+    outcome = midrib("hatch", slopes, tmp_path / "out.gpkg", "--top", "crest", *told)
+    assert outcome.code == 1
+    assert f": {sentence}" in outcome.err.partition("nothing is drawn: ")[2]
+    assert set(layer_names(tmp_path / "out.gpkg")) >= {"outlines", "problems"}
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ import shapely
 from ezdxf.filemanagement import readfile
 from pyarrow import csv
 
-from midrib.formats.reading import layer_names
+from midrib.formats.contents import layer_names
 from tests.cli.commands import Runner
 from tests.formats.layers import read_all
 from tests.towers.scans import CONE, dirty
@@ -46,7 +46,10 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert drawing.header["$INSUNITS"] == METRES
     layers = Counter(entity.dxf.layer for entity in drawing.modelspace())
     n = table.num_rows
-    assert layers == {"MIDRIB_AXIS": 1, "MIDRIB_LEVELS": n, "MIDRIB_HEIGHTS": n}
+    named = [text.dxf.text for text in drawing.modelspace().query("TEXT")]
+    assert layers == {"MIDRIB_AXIS": 1, "MIDRIB_LEVELS": n, "MIDRIB_HEIGHTS": 2 * len(named)}
+    assert set(named) <= {f"{z:.2f}" for z in table["z"].to_pylist()}
+    assert len(named) > 1
     assert set(layer_names(places[3])) == {"axis", "levels"}
     _, attributes, points = read_all(places[4])
     assert len(points) == table.num_rows

@@ -12,8 +12,9 @@ import shapely
 from midrib.engines.jobs import Job, plan
 from midrib.engines.parts import Done
 from midrib.engines.recipe import Recipe
+from midrib.formats.contents import choose_layer
 from midrib.formats.geoparquet import GeoParquetWriter
-from midrib.formats.reading import choose_layer, open_layer
+from midrib.formats.reading import open_layer
 from midrib.formats.writing import Features, write_layer
 from tests.formats.layers import RD_NEW
 

@@ -20,7 +20,8 @@ from midrib.engines.partitions import (
     small_groups,
 )
 from midrib.errors import ParameterError
-from midrib.formats.reading import choose_layer, parquet_batches
+from midrib.formats.contents import choose_layer
+from midrib.formats.reading import parquet_batches
 from tests.engines.layers import batch_of, write_areas
 
 

@@ -8,7 +8,8 @@ import pyarrow as pa
 import pyogrio
 import shapely
 
-from midrib.formats.reading import Geometries, Source, layer_names, open_layer
+from midrib.formats.contents import layer_names
+from midrib.formats.reading import Geometries, Source, open_layer
 from midrib.formats.writing import Features, write_layer
 
 __all__ = ["RD_NEW", "crs_name", "features_of", "projjson", "read_all", "write"]

@@ -19,13 +19,14 @@ from shapely.affinity import translate
 
 from midrib import standard
 from midrib.errors import ParameterError
+from midrib.formats.contents import layer_names
 from midrib.formats.crs import system_of
 from midrib.formats.drawing.content import LINES, PROBLEMS, Drawing, Trouble, layers_of
 from midrib.formats.drawing.heights import relief_of
 from midrib.formats.drawing.qgis import style_of
 from midrib.formats.drawing.sheet import AROUND, MARGIN, pages_of
 from midrib.formats.drawing.write import check_places, write_drawing
-from midrib.formats.reading import layer_names, open_layer
+from midrib.formats.reading import open_layer
 from tests.formats.drawings import EAST, NORTH, drawing
 from tests.hatching.standin import mound, rectangle
 
@@ -294,6 +295,13 @@ def test_dxf_layers_have_weights_colours_and_dashes(document: Document) -> None:
     assert list(dash.simplified_line_pattern()) == [1.25, 0.5]  # 2.5 and 1 mm at 1:500
 
 
+def test_dxf_dashes_go_on_round_vertices(document: Document) -> None:
+    chains = document.modelspace().query("LWPOLYLINE")
+    assert len(chains) > 10
+    assert all(chain.dxf.flags & 128 for chain in chains)
+    assert {chain.dxf.flags & 1 for chain in chains} == {0, 1}  # open and closed
+
+
 def test_dxf_figures_are_blocks(document: Document) -> None:
     circles = document.modelspace().query("INSERT[name=='MIDRIB_CIRCLE']")
     sizes = [circle.dxf.xscale for circle in circles]
@@ -313,8 +321,41 @@ def test_dxf_has_a_layout_at_scale(document: Document) -> None:
 
 def test_dxf_says_where_something_is_missing(document: Document) -> None:
     (note,) = document.modelspace().query("TEXT")
-    assert note.dxf.text == "s3: no way through"
-    assert note.dxf.height == pytest.approx(1.0)
+    (mark,) = document.modelspace().query("CIRCLE")
+    assert note.dxf.text == "refused 1"
+    assert mark.dxf.radius == pytest.approx(0.5)  # 1 mm at 1:500
+    assert not document.layers.get(mark.dxf.layer).dxf.plot
+    assert (shapely.Point(note.dxf.insert).distance(shapely.Point(mark.dxf.center))) > 0.5
+    for entity in (note, mark):
+        told = [value for code, value in entity.get_xdata("MIDRIB") if code == 1000]
+        assert told == ["s3", "refused", "no way through"]
+
+
+def test_long_sentences_are_whole_in_dxf(tmp_path: Path) -> None:
+    content, reason = drawing(), " ".join(["because"] * 90)
+    content.problems = [Trouble("s3", reason, shapely.Point(EAST, NORTH))]
+    (mark,) = readfile(written(tmp_path, "dxf", content)).modelspace().query("CIRCLE")
+    lines = [value for code, value in mark.get_xdata("MIDRIB") if code == 1000][2:]
+    assert len(lines) == 3
+    assert " ".join(lines) == reason
+
+
+@pytest.mark.parametrize("ending", ["dxf", "svg", "pdf", "gpkg"])
+def test_marks_of_problems_can_be_left_out_of_drawings(ending: str, tmp_path: Path) -> None:
+    path, content = tmp_path / f"map.{ending}", drawing(POLAND)
+    write_drawing(path, content, marks=False)
+    without = replace(content, problems=[])
+    other, written_with = tmp_path / f"other.{ending}", tmp_path / f"with.{ending}"
+    write_drawing(written_with, content)
+    write_drawing(other, without)
+    if ending == "dxf":
+        assert "MIDRIB_PROBLEMS" not in readfile(path).layers
+    elif ending == "gpkg":
+        assert PROBLEMS in layer_names(path)
+        assert PROBLEMS not in layer_names(other)
+    else:
+        assert path.read_bytes() == other.read_bytes()
+        assert path.read_bytes() != written_with.read_bytes()
 
 
 def test_dxf_takes_any_name_of_a_standard(tmp_path: Path) -> None:

@@ -7,7 +7,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from midrib.errors import ParameterError
-from midrib.formats.reading import choose_layer, decoded, open_layer
+from midrib.formats.contents import choose_layer
+from midrib.formats.reading import decoded, open_layer
 from tests.formats.layers import write
 
 AREA = "POLYGON ((0 0, 9 0, 9 2, 0 2, 0 0))"

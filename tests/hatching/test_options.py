@@ -5,11 +5,14 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
 
 from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
-from midrib.hatching import add_stroke, delete_stroke, move_stroke
+from midrib.hatching import Rule, add_stroke, delete_stroke, move_stroke
+from midrib.hatching.rule import with_mean_gap
 from midrib.strip import Strip
 from tests.hatching.slopes import annulus, bend, lens, rectangle, ring, trapezium
 
@@ -222,6 +225,49 @@ def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
     ]
 
 
+def test_a_slope_that_is_shorter_than_its_offsets_says_so() -> None:
+    hatching = hatch(rectangle(), offset=1e6)
+    assert hatching.strokes.size == 0
+    assert [problem.reason for problem in hatching.problems] == [
+        "offset is 1e+06 gaps from either end, the slope is shorter; none is drawn"
+    ]
+
+
+def test_zones_that_hide_all_are_told_and_others_are_not() -> None:
+    area = rectangle().area
+    hidden = hatch(rectangle(), exclude=area)
+    assert hidden.strokes.size == 0
+    assert [problem.reason for problem in hidden.problems] == [
+        "zones of exclude hide every stroke; none is drawn"
+    ]
+    x_low, y_low, x_high, y_high = area.bounds
+    assert not hatch(rectangle(), exclude=box(x_low, y_low, x_high - 20.0, y_high)).problems
+
+
+@given(scale=st.floats(1e-3, 1e3), factor=st.floats(0.3, 1.0))
+def test_the_mean_of_a_triangle_is_half_its_height(scale: float, factor: float) -> None:
+    """A top of vertices at 0, h, 0, made six: 0, h/3, 2h/3 (to the middle) and so on."""
+    top = LineString([(0.0, 0.0), (3.0, 1.0), (6.0, 0.0)])
+    toe = LineString([(0.0, 0.0), (6.0, 0.0)])
+    strip = Strip(*(LineString(scale * np.array(line.coords)) for line in (top, toe)))
+    rule = with_mean_gap(Rule(factor=factor), strip.main, strip.auxiliary)
+    heights = scale * np.array([0, 1 / 3, 2 / 3, 1, 2 / 3, 1 / 3, 0])
+    assert rule.least_gap == pytest.approx(factor * heights.mean())
+    assert rule.largest_gap == rule.least_gap
+
+
+def test_the_rule_of_the_mean_has_one_gap_and_the_standards_bounds() -> None:
+    wedge = Strip(LineString([(0, 0), (40, 0)]), LineString([(0, -2), (40, -8)]))
+    by_mean = hatch(wedge, scale=500, rule="mean")
+    assert by_mean.spacing == pytest.approx(np.full(by_mean.spacing.size, 2.5), rel=0.05)
+    assert np.ptp(hatch(wedge, scale=500).spacing) > 2.0
+    turned = abs((by_mean.on_toe - by_mean.on_top)[:, 0])
+    assert turned.max() < 0.1  # at right angles to the top
+    assert abs((h := hatch(wedge, rule="mean", top_share=0.0)).on_toe - h.on_top)[:, 0].max() > 0.3
+    assert hatch(wedge, rule="mean", min_spacing=8.0).rule.least_gap == 4.0
+    assert hatch(wedge, rule="mean", max_spacing=2.0).rule.least_gap == 1.0
+
+
 # -- refusals --------------------------------------------------------------------------------------
 
 
@@ -244,7 +290,8 @@ def test_a_slope_that_is_shorter_than_a_gap_has_a_problem() -> None:
         ({"pattern": "SS"}, "pattern is 'SS'"),
         ({"pattern": "LX"}, "pattern is 'LX'"),
         ({"short_ratio": 0.01}, r"short_ratio is 0.01, expected 0.05 to 0.95"),
-        ({"rule": "other"}, "rule is 'other', expected 'matching' or 'paper'"),
+        ({"rule": "other"}, "rule is 'other', expected 'matching' or 'mean' or 'paper'"),
+        ({"rule": "mean", "spacing": 2.0}, "rule is 'mean' with a fixed spacing, 1, expected a"),
         ({"start": "top"}, "start is 'top'"),
         ({"first": "long one"}, "first is 'long one'"),
         ({"first": "short", "pattern": "L"}, "first is 'short', but pattern 'L' has no short"),

@@ -125,12 +125,13 @@ app.command(
 )(check)
 app.command(
     help="Hatch slopes at map scale: strokes from top to toe that never cross, as a standard has "
-    "them; and draw walls, stairs and conveyors.\n\n"
+    "them; and draw walls, stairs, conveyors, gantries and water gates.\n\n"
     "Layers: strokes, symbols (filled), outlines, problems. Columns of strokes: area (identifier "
     "in the register), kind, standard, stroke (number along the top), is_long, width (of the "
     "slope there) and length. Slopes that are refused are listed and in the layer, or file, "
     "problems, with the reason.\n\n"
-    "Exit code 0: done; 1: some slopes refused, the rest is written; 2: wrong usage.",
+    "Exit code 0: done; 1: some slopes refused, the rest is written, or nothing drawn; 2: wrong "
+    "usage.",
     epilog="Examples:\n\nmidrib hatch bdot500.gml map.gpkg --standard pl-2015 --scale 500\n\n"
     "midrib hatch bgt.gml map.pdf --standard de-general --scale 1000 --paper A3\n\n"
     "midrib hatch slopes.gpkg map.dxf --top crest:slope_id --symbol wedge",

@@ -14,6 +14,7 @@ def check(
     toe: cli.Toe = None,
     start: cli.Start = None,
     end: cli.End = None,
+    kind: cli.Kind = None,
     history: cli.History = False,
     strokes: cli.Strokes = None,
     standard: cli.Standard = "pl-2021",
@@ -33,7 +34,7 @@ def check(
     report = Report(quiet=quiet)
     places = Places(source, out, figure)
     places.check(overwrite=overwrite)
-    told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end}
+    told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end, "kind": kind}
     slopes, problems = read_slopes(source, history=history, **told)
     if not slopes and not history and (ended := read_slopes(source, history=True, **told)[0]):
         report.say(f"note: {len(ended)} slopes have ended, --history checks them")

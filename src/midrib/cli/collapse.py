@@ -54,8 +54,9 @@ def collapse(
     from midrib.cli.running import Machines, Run, check_folder, is_folder
     from midrib.engines.partitions import check_alike, files_of
     from midrib.engines.recipe import Recipe, check_options
+    from midrib.formats.contents import choose_layer
     from midrib.formats.guides import guides_for
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.reading import open_layer
 
     machines = Machines(engine, workers, scheduler, master, part_rows)
     places = Places(source, out, figure, "joints" if connect else None)

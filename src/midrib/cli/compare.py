@@ -27,7 +27,8 @@ def compare(
     from midrib.cli.shown import show
     from midrib.comparison import compare as compare_lines
     from midrib.figures.comparison_page import check_comparison, rows_of, write_comparison
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import is_geographic, unit_of
     from midrib.formats.writing import check_free, staged
 

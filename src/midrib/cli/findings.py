@@ -18,8 +18,9 @@ from midrib.figures.checks import draw_checks
 from midrib.figures.draw import check_figure
 from midrib.formats.bdot500 import BASIC_MODEL, read_drawn
 from midrib.formats.cad import read_lines
+from midrib.formats.contents import layer_names, listed
 from midrib.formats.gml import namespaces
-from midrib.formats.reading import Geometries, layer_names, listed, open_layer
+from midrib.formats.reading import Geometries, open_layer
 from midrib.formats.slopes import DRAWING, XML
 from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged

@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 __all__ = ["hatch"]
 
 MOST_LISTED = 10  # problems told on the terminal
+TOLD = {  # what kinds of problems are called
+    "left out": "objects left out",
+    "unmatched": "places where strokes are left out or cut short",
+    "beyond": "places where strokes exceed a bound",
+}
 
 
 def hatch(
@@ -50,13 +55,15 @@ def hatch(
     toe: cli.Toe = None,
     start: cli.Start = None,
     end: cli.End = None,
+    kind: cli.Kind = None,
     exclude: cli.Exclude = None,
     history: cli.History = False,
     paper: cli.PaperSize = None,
+    no_problems: cli.NoProblems = False,
     overwrite: cli.Overwrite = False,
     quiet: cli.Quiet = False,
 ) -> None:
-    """Hatch slopes at map scale, and draw walls, stairs and conveyors."""
+    """Hatch slopes at map scale; draw walls, stairs, conveyors, gantries and water gates."""
     from midrib.cli.report import Report
     from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
     from midrib.formats.drawing.write import check_places, write_drawing
@@ -85,7 +92,7 @@ def hatch(
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)
     slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=start, end=end, history=history
+        source, layer=layer, top=top, toe=toe, start=start, end=end, kind=kind, history=history
     )
     if exclude is not None:
         options["exclude"] = zones_in(exclude, slopes[0].crs if slopes else None)
@@ -101,10 +108,12 @@ def hatch(
         track=lambda slopes: report.track(slopes, len(slopes), lambda _: 1, "hatching"),
         **options,
     )
-    for note in write_drawing(out, drawing, paper=paper):
+    for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
-    if drawing.n_refused:
+    if not drawing.has_symbols:
+        report.say(f"nothing is drawn: {why_nothing(drawing, standard)}")
+    if drawing.n_refused or not drawing.has_symbols:
         raise typer.Exit(1)
 
 
@@ -123,7 +132,8 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     """
     from shapely import MultiPolygon, Polygon
 
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import is_same_plane
 
     with open_layer(path, choose_layer(path, None, "--exclude")) as source:
@@ -134,28 +144,44 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
     return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 
 
+def why_nothing(drawing: "Drawing", standard: str) -> str:
+    """Reason why a drawing has no stroke and no symbol."""
+    from midrib.formats.drawing.content import LEFT_OUT
+    from midrib.hatching.standards import standards_named
+
+    if not drawing.objects and not drawing.problems:
+        return "IN has no slopes; those that have ended come with --history"
+    if any(trouble.kind == LEFT_OUT for trouble in drawing.problems) and not drawing.objects:
+        kinds = dict.fromkeys(kind for known in standards_named(standard) for kind in known.kinds)
+        return (
+            f"standard {standard!r} is made for {', '.join(kinds)}, and IN has nothing of these; "
+            "--kind says what its objects are"
+        )
+    first = drawing.problems[0] if drawing.problems else None
+    return "the objects of IN have no stroke" if first is None else f"{first.id}: {first.reason}"
+
+
 def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     """Say what has come of a run."""
-    from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE
+    from midrib.formats.drawing.content import REFUSED
     from midrib.formats.units import unit_of
 
     found = Counter(trouble.kind for trouble in drawing.problems)
     strokes = sum(0 if drawn.is_long is None else len(drawn.is_long) for drawn in drawing.objects)
+    others = sum(drawn.symbols.count for drawn in drawing.objects if drawn.is_long is None)
+    drawn_too = f" and {others:,} symbols" if others else ""
     report.say(
-        f"{strokes:,} strokes of {len(drawing.objects):,} objects at 1:{drawing.scale:g}, "
-        f"{drawing.n_refused:,} refused; {report.elapsed:.1f} s"
+        f"{strokes:,} strokes{drawn_too} of {len(drawing.objects):,} objects "
+        f"at 1:{drawing.scale:g}, {drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
     report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:
         report.say("note: IN does not say what its unit is, it is taken for the metre")
-    if not drawing.objects and not drawing.problems:
-        report.say("note: IN has no slopes; those that have ended come with --history")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]
     for trouble in listed[:MOST_LISTED]:
         report.say(f"refused: {trouble.id}: {trouble.reason}")
     if len(listed) > MOST_LISTED:
         report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
-    names = {LEFT_OUT: "objects left out", STROKE: "places where a stroke is amiss"}
     for kind, number in found.items():
         if kind != REFUSED:
-            report.say(f"note: {names.get(kind, f'doubts, {kind}')}: {number:,}")
+            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,}")

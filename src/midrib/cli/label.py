@@ -23,7 +23,8 @@ def label(
     from midrib.cli.labels import check_label, label_layer
     from midrib.cli.output import Places
     from midrib.cli.report import Report
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, None)

@@ -10,13 +10,14 @@ import pyarrow as pa
 import shapely
 
 from midrib.cli.job import JOINT_COLUMNS, joint_features
+from midrib.cli.summary import summary
 from midrib.engines.batches import Counts
 from midrib.engines.parts import kinds_in, tables_of
 from midrib.errors import ParameterError
 from midrib.figures.draw import check_figure, draw_collapse
+from midrib.formats.contents import column_names
 from midrib.formats.endings import endings_with_m, format_of
-from midrib.formats.reading import column_names
-from midrib.formats.units import Unit, is_geographic, unit_of
+from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import (
     KINDS,
     Features,
@@ -42,8 +43,6 @@ LINE_OF = {"Polygon": "LineString", "MultiPolygon": "MultiLineString"}
 REASON = "reason"  # the column that every layer of refused areas, or of joints, has
 # The column that tells a second layer of an earlier run, by the name of the layer.
 MARKS = {"joints": REASON, "nodes": "node", "areas": "part"}
-KILO = 1000.0
-MANY = 10_000.0  # from so many metres on, lengths are in kilometres
 
 
 class Second(NamedTuple):
@@ -264,16 +263,6 @@ def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Pa
         )
 
 
-def summary(counts: Counts, crs: str | None, seconds: float) -> str:
-    """One line about a run."""
-    length = length_text(counts.length, unit_of(crs))
-    rate = counts.features / seconds
-    return (
-        f"{counts.lines} lines of {counts.features} features, {counts.refused} refused, "
-        f"{counts.repaired} repaired; {length} in {seconds:.1f} s, {rate:,.0f} features/s"
-    )
-
-
 def stored(paths: list[Path], schema: pa.Schema, recipe: "Recipe", layer: str, kind: str) -> Layer:
     """Tell what is known of a layer whose features are in parts."""
     attributes = pa.schema([*schema][:-1])
@@ -302,12 +291,3 @@ def joints_of(results: "Results") -> Second:
         f"{made['none']} shared edges without"
     )
     return Second(*joint_features(results.joints), "Point", summary)
-
-
-def length_text(length: float, unit: Unit | None) -> str:
-    """Write a length for people: ``12.3 km``, ``840.0 m``, ``3.1 units``."""
-    if unit is None:
-        return f"{length:.4g} units"
-    if unit.metres == 1.0 and length >= MANY:
-        return f"{length / KILO:,.1f} km"
-    return f"{length:,.1f} {unit.name}"

@@ -27,7 +27,8 @@ def partial(
     from midrib.cli.output import Places
     from midrib.cli.partials import WideParts, check_partial, partial_layer
     from midrib.cli.report import Report
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, None, "areas")

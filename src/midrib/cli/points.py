@@ -25,7 +25,8 @@ def points(
     from midrib.cli.report import Report
     from midrib.curves.control import least_importance
     from midrib.engines.recipe import check_options
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, None)

@@ -37,8 +37,9 @@ def profile(
     from midrib.cli.report import Report
     from midrib.cli.tables import Table, check_field, check_table, profile_layer, write_table
     from midrib.engines.recipe import check_options
+    from midrib.formats.contents import choose_layer
     from midrib.formats.guides import guides_for
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import length_in
 
     places = Places(source, out, figure)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from midrib.checks import check_library
 from midrib.cli.options import Engine
-from midrib.cli.output import summary
+from midrib.cli.summary import summary
 from midrib.engines.batches import Counts
 from midrib.engines.jobs import logged, plan
 from midrib.engines.partitions import partitions_of
 from midrib.engines.parts import REFUSED, Work
 from midrib.errors import ParameterError
-from midrib.formats.reading import count_features
+from midrib.formats.contents import count_features
 from midrib.formats.writing import staged
 
 if TYPE_CHECKING:

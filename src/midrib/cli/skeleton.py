@@ -24,7 +24,8 @@ def skeleton(
     from midrib.cli.output import Places
     from midrib.cli.report import Report
     from midrib.cli.skeletons import check_skeleton, skeleton_layer
-    from midrib.formats.reading import choose_layer, open_layer
+    from midrib.formats.contents import choose_layer
+    from midrib.formats.reading import open_layer
     from midrib.formats.units import length_in
 
     is_m = radius is cli.WidthPlace.m

@@ -13,8 +13,8 @@ from midrib.cli.job import with_columns
 from midrib.curves.collapse import Log
 from midrib.errors import ParameterError
 from midrib.figures.profiles import MOST_PANELS, Panel, draw_profiles
+from midrib.formats.contents import listed
 from midrib.formats.endings import format_of
-from midrib.formats.reading import listed
 from midrib.formats.units import is_geographic, unit_of
 from midrib.formats.writing import Features, staged, write_layer
 from midrib.profiles import profiles_of

@@ -15,8 +15,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from midrib.errors import ParameterError
+from midrib.formats.contents import PARQUET_ENDINGS, choose_layer, count_features
 from midrib.formats.endings import FOLDERS
-from midrib.formats.reading import PARQUET_ENDINGS, choose_layer, count_features, open_layer
+from midrib.formats.reading import open_layer
 
 __all__ = [
     "BATCH_ROWS",

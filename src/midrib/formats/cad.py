@@ -16,9 +16,9 @@ from shapely import LineString
 
 from midrib.checks import check_library
 from midrib.errors import ParameterError
+from midrib.formats.contents import listed
 from midrib.formats.gathering import Gathered
 from midrib.formats.pairs import add_pairs
-from midrib.formats.reading import listed
 from midrib.hatching.slope import Slope, SlopeProblem
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ import shapely
 from shapely import LineString
 
 from midrib.errors import ParameterError
-from midrib.formats.reading import layer_names, listed, open_layer
+from midrib.formats.contents import layer_names, listed
+from midrib.formats.reading import open_layer
 from midrib.formats.tops import joined_tops
 
 if TYPE_CHECKING:

@@ -10,18 +10,18 @@ from shapely import LineString, MultiPolygon, Point, Polygon
 
 from midrib.errors import ParameterError
 from midrib.formats.bdot500 import kind_of
-from midrib.formats.gathering import Gathered, check_area
-from midrib.formats.guides import guides_for
-from midrib.formats.pairs import add_pairs
-from midrib.formats.reading import (
+from midrib.formats.contents import (
     choose_layer,
     column_names,
     driver_of,
     layer_names,
     listed,
     may_hold_areas,
-    open_layer,
 )
+from midrib.formats.gathering import Gathered, check_area
+from midrib.formats.guides import guides_for
+from midrib.formats.pairs import add_pairs
+from midrib.formats.reading import open_layer
 from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
 
 if TYPE_CHECKING:

@@ -1,12 +1,13 @@
 """Slopes of any register: finds out what a file is and has it read."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from midrib.errors import ParameterError
 from midrib.formats import bdot500, bgt, gml
 from midrib.formats.cad import read_cad
 from midrib.formats.layers import Hints, read_layer
-from midrib.hatching.slope import Slope, SlopeProblem
+from midrib.hatching.slope import KINDS, Slope, SlopeProblem
 
 __all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "read_slopes"]
 
@@ -21,6 +22,7 @@ def read_slopes(
     toe: str | None = None,
     start: str | None = None,
     end: str | None = None,
+    kind: str | None = None,
     history: bool = False,
 ) -> tuple[list[Slope], list[SlopeProblem]]:
     r"""Read the slopes of a register: areas with their tops and toes.
@@ -40,6 +42,9 @@ def read_slopes(
         Lines along the toes, where there are no areas: a layer, as ``top`` is then.
     start, end : str, optional
         Where the tops start and end: two fields ``X,Y`` or a layer of points ``LAYER:ID``.
+    kind : str, optional
+        What the objects are, in place of what the file says: one of ``Slope.kind``, for all of
+        them, or a field with such names.
     history : bool, default False
         Whether to read objects that the register says have ended.
 
@@ -53,7 +58,7 @@ def read_slopes(
     Raises
     ------
     ParameterError
-        If the file cannot be read, or nothing tells where the tops are.
+        If the file cannot be read, nothing tells where the tops are, or there is no such kind.
     MissingDependencyError
         If it is a drawing and ezdxf is not installed.
 
@@ -80,13 +85,17 @@ def read_slopes(
     >>> slope.top.wkt, slope.toe.wkt, problems
     ('LINESTRING (0 2, 9 2)', 'LINESTRING (0 2, 0 0, 9 0, 9 2)', [])
     """
-    path = Path(path)
+    slopes, problems = read_file(Path(path), Hints(layer, top, toe, start, end), history=history)
+    return slopes if kind is None else of_kind(slopes, kind), problems
+
+
+def read_file(path: Path, hints: Hints, *, history: bool) -> tuple[list[Slope], list[SlopeProblem]]:
+    """Read the slopes of a file of any kind."""
     if not path.exists():
         msg = f"IN {str(path)!r} does not exist"
         raise ParameterError(msg)
     if path.suffix.lower() == DRAWING:
-        return read_cad(path, top, toe)
-    hints = Hints(layer, top, toe, start, end)
+        return read_cad(path, hints.top, hints.toe)
     if path.suffix.lower() in XML and hints == Hints():
         spaces = " ".join(gml.namespaces(path))
         if any(name in spaces for name in bdot500.DATABASES):
@@ -96,3 +105,27 @@ def read_slopes(
         for _ in gml.features(path):  # a file that breaks off says so, not that it lacks something
             pass
     return read_layer(path, hints)
+
+
+def of_kind(slopes: list[Slope], kind: str) -> list[Slope]:
+    """Return slopes that are of a kind, or of the kinds that a field tells.
+
+    Raises
+    ------
+    ParameterError
+        If it is neither a kind nor a field, or a field tells something else.
+    """
+    if kind in KINDS:
+        return [replace(slope, kind=kind) for slope in slopes]
+    wanted = f"expected one of {', '.join(KINDS)}"
+    told = []
+    for slope in slopes:
+        if kind not in slope.attributes:
+            msg = f"kind is {kind!r}, {wanted}, or a field of IN with these"
+            raise ParameterError(msg)
+        name = str(slope.attributes[kind])
+        if name not in KINDS:
+            msg = f"field {kind!r} of object {slope.id!r} is {name!r}, {wanted}"
+            raise ParameterError(msg)
+        told.append(replace(slope, kind=name))
+    return told

@@ -26,7 +26,7 @@ from midrib.hatching.keys import STROKED
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.strip import Strip
     from midrib.types import Bools, Floats
 
@@ -34,6 +34,7 @@ __all__ = ["symbols_along"]
 
 SAMPLES = 1024  # of the width along the axis
 STEPS = 32  # of moving a middle between the edges; each halves what is left, or better
+BETWEEN = 0.5  # least -cos of the angle at which a point sees both edges: 120 degrees
 CLEAR = 0.9  # of the gap between large circles, that a small one takes at the most
 MOST = 100_000  # symbols of one object
 NEARLY = 1e-6  # relative: what rounding may take off a width or a whole number
@@ -214,13 +215,19 @@ def circles(axis: Axis, known: "Standard", millimetre: float) -> tuple[Placed, .
 
 
 def room(axis: Axis, narrowest: float) -> tuple[float, float]:
-    """Stations between which circles have room: clear of the caps, in no too narrow tip."""
+    """Stations between which circles have room: clear of the caps, in no too narrow tip.
+
+    Caps may belong to an edge, as registers have it: there the axis leads into the corners, and
+    does not lie between the edges.
+    """
 
     def has_room(stations: "Floats") -> "Bools":
         points = axis.middles(stations)
         widths = axis.widths(points)
         free = 2.0 * shapely.distance(shapely.points(points), axis.boundary)
-        is_free: Bools = (free >= (1.0 - NEARLY) * widths) & (widths >= narrowest)
+        to_main, to_auxiliary = axis.feet(points) - points
+        across = -(to_main * to_auxiliary).sum(axis=1) >= BETWEEN * (0.5 * widths) ** 2
+        is_free: Bools = (free >= (1.0 - NEARLY) * widths) & (widths >= narrowest) & across
         return is_free
 
     samples = np.linspace(0.0, axis.chain.length, SAMPLES + 1)

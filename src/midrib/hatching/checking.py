@@ -10,8 +10,9 @@ from shapely import Point
 
 from midrib import interrupts
 from midrib.errors import InvalidAreaError
-from midrib.hatching.hatch import hatch
+from midrib.hatching.draw import draw
 from midrib.hatching.keys import STROKED
+from midrib.hatching.sharing import in_step
 from midrib.hatching.slope import Slope, SlopeProblem
 from midrib.hatching.standards import standard_for, standards_named
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from midrib.types import Floats
 
-__all__ = ["CHECKS", "Finding", "check_slopes", "falls"]
+__all__ = ["CHECKS", "CHECK_OF", "Finding", "check_slopes", "falls"]
 
 CHECKS = {
     "refused": "no slope, for want of a top, an area or good coordinates",
@@ -30,10 +31,12 @@ CHECKS = {
     "pieces": "the top is stored in pieces: they were joined, or one was left out",
     "pairs": "lines alone do not tell which top goes with which toe",
     "unmatched": "strokes are left out or cut short, or there is none, in some place",
+    "beyond": "strokes that are drawn exceed a bound, since the edges let none keep it",
     "crossing": "strokes that are drawn cross or lie on each other",
 }
 MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
 ON_BOUNDARY = 1e-9  # of the extent: what a file loses of a place
+CHECK_OF = {"missing": "unmatched", "beyond": "beyond"}  # by the kinds of a hatching's problems
 MEET_IN_ENDS = "F********"  # DE-9IM: two strokes have no inner point in common
 
 
@@ -79,7 +82,7 @@ def check_slopes(
         pair once. That they meet in an end is no fault.
     standard : str or Standard, default "pl-2021"
         A standard, a file of one, or the beginning of names: each slope is hatched by the one that
-        is made for its kind, to see whether it can be.
+        is made for its kind, as ``midrib hatch`` does without options: what is amiss is listed.
     scale : float, default 500
         Of the map, 500 for 1:500.
     metres_per_unit : float, default 1
@@ -111,16 +114,15 @@ def check_slopes(
     [('swapped', 'POINT (5 0)')]
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
-    doubted = {finding.id for finding in found if finding.check == "orientation"}
     for known in standards_named(standard):  # refuses an unknown one before any work is done
         known.at(scale)
-    for slope in slopes:
+    for slope, options in zip(slopes, in_step(slopes, {}, "meet"), strict=True):
         interrupts.check()
-        found += heights(slope)
-        doubts = [*boundary(slope), *lengths(slope)]
-        found += doubts
-        if not doubts and slope.id not in doubted:
-            found += matching(slope, standard, scale, metres_per_unit)
+        off_ring = [*boundary(slope)]
+        found += [*heights(slope), *off_ring, *lengths(slope)]
+        if not off_ring:  # else edges and area do not go together
+            at = {"scale": scale, "metres_per_unit": metres_per_unit}
+            found += matching(slope, standard, at | options)
     found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
     order = {check: k for k, check in enumerate(CHECKS)}
     return sorted(found, key=lambda finding: order[finding.check])
@@ -189,23 +191,19 @@ def lengths(slope: Slope) -> Iterator[Finding]:
         yield Finding(slope.id, "orientation", f"{reason} at most", Point(middle.x, middle.y))
 
 
-def matching(
-    slope: Slope, standard: Any, scale: float, metres_per_unit: float
-) -> Iterator[Finding]:
-    """Find places where a slope cannot be hatched, if its kind is hatched at all."""
+def matching(slope: Slope, standard: Any, options: dict[str, Any]) -> Iterator[Finding]:
+    """Find places where a slope is not hatched as it should be, if its kind is hatched at all."""
     known = standard_for(standard, slope.kind)
     if known is None or known.symbol not in STROKED:
         return
     try:
-        done = hatch(slope.strip(), known, scale, metres_per_unit=metres_per_unit)
+        done = draw(slope.strip(), known, drop=slope.drop, **options).hatching
     except InvalidAreaError as error:
         middle = slope.top.interpolate(0.5, normalized=True)
         yield Finding(slope.id, "unmatched", str(error), Point(middle.x, middle.y))
         return
-    for problem in done.problems:
-        if problem.kind != "missing":
-            continue  # of the drawing, not of the data
-        yield Finding(slope.id, "unmatched", problem.reason, problem.where)
+    for problem in [] if done is None else done.problems:
+        yield Finding(slope.id, CHECK_OF[problem.kind], problem.reason, problem.where)
 
 
 def crossings(strokes: "NDArray[np.object_]", slopes: Sequence[Slope]) -> Iterator[Finding]:

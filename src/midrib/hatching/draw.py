@@ -9,7 +9,7 @@ from midrib.hatching.symbols import symbols
 
 if TYPE_CHECKING:
     from midrib.hatching.drawn import Symbols
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.strip import Strip
 
 __all__ = ["Picture", "draw"]

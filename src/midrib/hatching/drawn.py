@@ -7,7 +7,7 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
-from midrib.hatching.standards import Standard
+from midrib.hatching.standard import Standard
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -90,6 +90,11 @@ class Symbols:
     placed: tuple[Placed, ...]
     edges: "NDArray[np.object_]"
     standard: Standard
+
+    @property
+    def count(self) -> int:
+        """How many lines, areas and figures there are, the outline apart."""
+        return self.lines.size + self.areas.size + sum(p.size.size for p in self.placed)
 
     def flat(self) -> "Symbols":
         """Return the same drawing with figures made lines and areas."""

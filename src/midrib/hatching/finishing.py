@@ -60,7 +60,7 @@ def finish(
     """
     problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
     if not drawn.kept.size:
-        reason = f"the slope is shorter than a gap, {rule.least_gap:.3g} at least; none is drawn"
+        reason = too_short(strip, rule, offset)
         problems.append(Problem(strip.main.interpolate(0.5, normalized=True), reason))
     width = np.hypot(*(drawn.on_toe - drawn.on_top).T)
     kept = drawn.kept & (width >= least)
@@ -90,10 +90,28 @@ def finish(
     if curves is not None:
         problems += beyond_bounds(drawn, kept, is_long, share, gap, curves, offset, least)
     if zones is not None:
-        rows = np.flatnonzero(kept)
-        lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
-        kept[rows[shapely.intersects(lines, zones)]] = False
+        hide(drawn, kept, share, zones, problems)
     return Finished(kept, is_long, share, problems)
+
+
+def too_short(strip: Strip, rule: Rule, offset: float) -> str:
+    """Reason why no stroke has a place: an offset that is too long, or any gap is."""
+    if offset > 1.0 and strip.main.length >= rule.least_gap:
+        return f"offset is {offset:,g} gaps from either end, the slope is shorter; none is drawn"
+    return f"the slope is shorter than a gap, {rule.least_gap:.3g} at least; none is drawn"
+
+
+def hide(
+    drawn: Drawn, kept: Bools, share: Floats, zones: Any, problems: list[Problem]
+) -> None:  # fmt: skip
+    """Leave out the strokes that meet a zone, which is no problem unless none is left."""
+    rows = np.flatnonzero(kept)
+    lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
+    is_hidden = shapely.intersects(lines, zones)
+    kept[rows[is_hidden]] = False
+    if rows.size and is_hidden.all():
+        reason = "zones of exclude hide every stroke; none is drawn"
+        problems.append(Problem(Point(drawn.middle[rows[rows.size // 2]]), reason))
 
 
 def pattern_from(pattern: str, first: str | None) -> str:

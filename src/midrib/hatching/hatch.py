@@ -5,13 +5,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from midrib.checks import check_flag, is_number, shown
-from midrib.errors import ParameterError
+from midrib.hatching.asked import STIFFNESS, Asked, check_asked, least_length
 from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
 from midrib.hatching.laying import Ground
 from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
-from midrib.hatching.rule import LEAST_LENGTH, MILLIMETRES, Rule, rule_of
+from midrib.hatching.rule import MILLIMETRES, Rule, rule_of, with_mean_gap
 from midrib.strip import Strip, check_strip
 
 if TYPE_CHECKING:
@@ -20,13 +19,6 @@ if TYPE_CHECKING:
     from midrib.types import Bools, Floats
 
 __all__ = ["Hatching", "hatch"]
-
-STIFFNESS = 0.9  # see hatch
-MOST_STIFF = 100.0  # from there on all strokes of a slope are parallel
-LARGEST = float(np.finfo(np.float64).max)
-PAPER = ("left", 1.0, False, STIFFNESS, 0.0)  # options that the paper's procedure does not have
-STARTS = ("left", "right", "first", "last")
-RULES = ("matching", "paper")
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +77,7 @@ def hatch(
     standard: Any = "pl-2021-slope-unreinforced",
     scale: float = 500.0,
     *,
-    rule: Literal["matching", "paper"] = "matching",
+    rule: Literal["matching", "mean", "paper"] = "matching",
     metres_per_unit: float = 1.0,
     factor: float | None = None,
     spacing: float | None = None,
@@ -100,7 +92,7 @@ def hatch(
     end_strokes: bool = False,
     exclude: Any = None,
     stiffness: float = STIFFNESS,
-    top_share: float = 0.0,
+    top_share: float | None = None,
 ) -> Hatching:
     """Hatch a slope with strokes from its top to its toe.
 
@@ -116,8 +108,10 @@ def hatch(
         How strokes are spaced and how long they are, on paper; ``midrib.standards()`` lists them.
     scale : float, default 500
         The map's scale is 1 : ``scale``.
-    rule : {"matching", "paper"}, default "matching"
-        "matching" is the engine described here. "paper" is the procedure of the paper, for
+    rule : {"matching", "mean", "paper"}, default "matching"
+        "matching" is the engine described here. "mean" has one gap for the whole slope, as
+        drawing tools have: the factor times the mean distance of the top's vertices from the toe;
+        strokes are at right angles to the top then. "paper" is the procedure of the paper, for
         comparison: from the first point of the top on, to the nearest point of the toe that is
         seen; such strokes may share feet and cross. It has no start, offset, end strokes,
         stiffness and top share.
@@ -154,6 +148,9 @@ def hatch(
     stiffness : float, default 0.9
         Over how many lengths of stroke directions are evened out. More turns slower at corners
         and is calmer under noise; less keeps strokes nearer to the normals of the edges.
+    top_share : float, optional
+        0: strokes stand to both edges alike; 1: at right angles to the top; between, in
+        proportion. 0 unless given, and 1 with ``rule="mean"``.
 
     Returns
     -------
@@ -202,33 +199,17 @@ def hatch(
         standard, scale, metres_per_unit, factor=factor, spacing=spacing, min_spacing=min_spacing,
         max_spacing=max_spacing, pattern=pattern, short_ratio=short_ratio,
     )  # fmt: skip
-    check_choice(rule, "rule", RULES)
-    check_choice(start, "start", STARTS)
-    check_choice(first, "first", (None, "long", "short"))
-    if first == "short" and "S" not in ground.pattern:
-        msg = f"first is 'short', but pattern {ground.pattern!r} has no short stroke"
-        raise ParameterError(msg)
-    check_flag(end_strokes, "end_strokes")
-    check_above_zero(offset, "offset")
-    check_above_zero(stiffness, "stiffness", MOST_STIFF)
-    if not is_number(top_share) or not 0.0 <= top_share <= 1.0:
-        msg = f"top_share is {shown(top_share)}, expected a number from 0 to 1"
-        raise ParameterError(msg)
+    check_asked(Asked(rule, start, offset, end_strokes, stiffness, top_share), first, ground)
     least = least_length(min_length, ground, scale / MILLIMETRES / metres_per_unit)
+    if rule == "mean":
+        ground = with_mean_gap(ground, strip.main, strip.auxiliary)
     zones = zones_of(exclude)
     where: Ground | None = None
     if rule == "paper":
-        if (start, offset, end_strokes, stiffness, top_share) != PAPER:
-            msg = (
-                "rule='paper' has no start, offset, end_strokes, stiffness and top_share, found "
-                "one of them"
-            )
-            raise ParameterError(msg)
         drawn = draw_by_paper(strip, ground)
     else:
-        drawn, where = draw_by_matching(
-            strip, ground, start, offset, end_strokes, stiffness, top_share
-        )
+        share = float(rule == "mean") if top_share is None else top_share
+        drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness, share)
     curves = None if where is None else where.curves
     finished = finish(drawn, ground, least, first, zones, strip, curves, offset)
     made = assemble(
@@ -277,28 +258,3 @@ def gaps_between(station: "Floats", ground: Ground | None) -> "Floats":
         np.minimum(ahead, behind) if station.size > 1 else np.full(station.size, total)
     )
     return shorter
-
-
-def least_length(value: Any, rule: Rule, ground: float) -> float:
-    """Length in coordinate units of the shortest whole stroke to draw."""
-    if value is None:
-        return LEAST_LENGTH * rule.least_gap
-    if not is_number(value) or not 0.0 <= value < np.inf:
-        msg = f"min_length is {shown(value)}, expected a number of 0 or more"
-        raise ParameterError(msg)
-    return float(value) * ground
-
-
-def check_choice(value: Any, name: str, choices: tuple[str | None, ...]) -> None:
-    """Refuse what is none of the choices."""
-    if not (value is None or isinstance(value, str)) or value not in choices:
-        msg = f"{name} is {shown(value)}, expected {' or '.join(map(repr, choices))}"
-        raise ParameterError(msg)
-
-
-def check_above_zero(value: Any, name: str, most: float = LARGEST) -> None:
-    """Refuse what is no number above 0, or too large."""
-    if not is_number(value) or not 0.0 < value <= most:
-        bound = "" if most == LARGEST else f", {most:g} at most"
-        msg = f"{name} is {shown(value)}, expected a number above 0{bound}"
-        raise ParameterError(msg)

@@ -1,10 +1,11 @@
 """How far apart strokes are and how long: the rule of a standard, in ground units."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import shapely
 
 from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
@@ -12,13 +13,16 @@ from midrib.hatching.keys import STROKED
 from midrib.hatching.standards import standard as standard_named
 
 if TYPE_CHECKING:
+    from shapely import LineString
+
     from midrib.types import Floats
 
-__all__ = ["LEAST_LENGTH", "Rule", "rule_of"]
+__all__ = ["LEAST_LENGTH", "Rule", "rule_of", "with_mean_gap"]
 
 LEAST_LENGTH = 0.25  # of the least gap: about the width of the line, shorter strokes are dots
 MILLIMETRES = 1000.0
 VALUES = ("factor", "spacing", "min_spacing", "max_spacing", "pattern", "short_ratio")
+FIFTH, FEW = 0.2, 10  # a top with fewer vertices is densified to this share of its length
 SHORTEST, LONGEST = 0.05, 0.95  # short strokes, of whole ones
 
 
@@ -95,6 +99,34 @@ def rule_of(standard: Any, scale: Any, metres_per_unit: Any, **overrides: Any) -
         if values[name] is not None:
             values[name] = float(values[name]) * ground
     return Rule(**values)
+
+
+def with_mean_gap(rule: Rule, top: "LineString", toe: "LineString") -> Rule:
+    """Return the rule with one gap for a whole slope, as drawing tools have it.
+
+    It is the factor times the mean distance of the top's vertices from the toe. A top with fewer
+    than ten vertices gets more of them first, a fifth of its length apart at most. Its ends count
+    as well: where top and toe meet, with a distance of 0.
+
+    Raises
+    ------
+    ParameterError
+        If the rule has no factor.
+
+    References
+    ----------
+    GML Explorer, a QGIS plugin: its code for slopes.
+    """
+    if rule.factor is None:
+        msg = f"rule is 'mean' with a fixed spacing, {rule.least_gap:.3g}, expected a factor"
+        raise ParameterError(msg)
+    dense = shapely.force_2d(top)
+    if shapely.get_num_coordinates(dense) < FEW:
+        dense = shapely.segmentize(dense, FIFTH * dense.length)
+    corners = shapely.points(shapely.get_coordinates(dense))
+    mean = shapely.distance(corners, toe).mean(keepdims=True)
+    (gap,) = rule.gaps(mean).tolist()
+    return replace(rule, factor=None, spacing=gap, min_spacing=0.0, max_spacing=None)
 
 
 def check_gaps(values: dict[str, Any]) -> None:

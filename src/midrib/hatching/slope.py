@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+import numpy as np
 from shapely import LineString, Point, Polygon
 
 from midrib.errors import InvalidAreaError
@@ -22,6 +23,8 @@ SlopeKind: TypeAlias = Literal[
     "wall",
     "stairs",
     "conveyor",
+    "gantry",
+    "water-gate",
     "directed",  # no slope: a road or another area with a line along one edge
     "other",
 ]
@@ -71,6 +74,13 @@ class Slope:
             If top and toe do not divide the boundary of the area.
         """
         return Strip(self.top, self.toe, self.area)
+
+    @property
+    def drop(self) -> float | None:
+        """Height of the top above the toe on the mean, None if it is not known of both."""
+        if self.top_heights is None or self.toe_heights is None:
+            return None
+        return float(np.mean(self.top_heights[:, 2]) - np.mean(self.toe_heights[:, 2]))
 
 
 @dataclass(frozen=True)

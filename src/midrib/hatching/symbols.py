@@ -25,7 +25,8 @@ from midrib.errors import ParameterError
 from midrib.hatching.chains import Chain, chain_of
 from midrib.hatching.drawn import HEAD, Pen, Placed, Symbols, drawing, edges_of
 from midrib.hatching.keys import STROKED
-from midrib.hatching.standards import Standard, standard
+from midrib.hatching.standard import Standard
+from midrib.hatching.standards import standard
 
 if TYPE_CHECKING:
     from collections.abc import Callable

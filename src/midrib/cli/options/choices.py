@@ -126,6 +126,7 @@ class DrawingRule(StrEnum):
     """How strokes are found."""
 
     matching = "matching"
+    mean = "mean"
     paper = "paper"
 
 

@@ -13,6 +13,7 @@ __all__ = [
     "Exclude",
     "History",
     "Identifier",
+    "Kind",
     "Layer",
     "LinesOrParts",
     "LinesOut",
@@ -123,6 +124,14 @@ Start: TypeAlias = Annotated[
 ]
 End: TypeAlias = Annotated[
     str | None, of_layers(metavar="X,Y|LAYER:ID", help="Where the tops end, likewise.")
+]
+Kind: TypeAlias = Annotated[
+    str | None,
+    of_layers(
+        metavar="NAME|FIELD",
+        help="What the objects are, whatever IN says: dyke, cutting, wall, stairs, conveyor, "
+        "gantry, water-gate …; or a field of IN that tells.",
+    ),
 ]
 History: TypeAlias = Annotated[
     bool, of_layers("--history", metavar="", help="Objects too that have ended.")

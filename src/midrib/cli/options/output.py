@@ -10,6 +10,7 @@ __all__ = [
     "FindingsFigure",
     "FindingsOut",
     "LineFigure",
+    "NoProblems",
     "OutLayer",
     "Overwrite",
     "PaperSize",
@@ -28,6 +29,14 @@ PaperSize: TypeAlias = Annotated[
         "--paper",
         metavar="A4…A0",
         help="Size of a .svg or .pdf sheet; as large as it needs to be unless you say otherwise.",
+    ),
+]
+NoProblems: TypeAlias = Annotated[
+    bool,
+    of_output(
+        "--no-problems",
+        metavar="",
+        help="No marks where something is amiss on sheets and in .dxf; layers keep theirs.",
     ),
 ]
 Width: TypeAlias = Annotated[

@@ -1,21 +1,27 @@
-"""DXF of a tower's axis: a line in space, and a point with its height for each level."""
+"""DXF of a tower's axis: a line in space, a point for each level, heights where there is room.
+
+Seen from above, which is how it is plotted, a tower's axis is a short curve: the scale is the
+largest of 1:1, 1:2, 1:5, 1:10 … at which it fits on a page, and a height stands beside its level
+unless that of a lower one is in the way. Seen from the side, levels are where they are.
+"""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from midrib.checks import check_library
-from midrib.formats.drawing.cad import RED, UNITS, VERSION, set_extents
+from midrib.formats.drawing.cad import RED, UNITS, VERSION, add_layout, set_extents
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
 __all__ = ["write_axis_dxf"]
 
 LINE, POINTS, HEIGHTS = "MIDRIB_AXIS", "MIDRIB_LEVELS", "MIDRIB_HEIGHTS"  # layers
-SHARE = 0.3  # of the distance between levels: the height of texts
+PAGE, TEXT, MARK = 150.0, 2.5, 1.0  # millimetres: the axis at most, texts, circles of named levels
+ROOM = np.array([0.8, 1.4])  # of a character, in heights of a text: its width with what is beside
 
 
 def write_axis_dxf(path: "Path", points: "Floats", unit: float) -> None:
@@ -29,6 +35,8 @@ def write_axis_dxf(path: "Path", points: "Floats", unit: float) -> None:
     check_library("ezdxf", "writing DXF", "dxf")
     from ezdxf.filemanagement import new
 
+    scale = scale_of(points, unit)
+    millimetre = scale / 1000.0 * unit
     document = new(VERSION)
     document.header["$INSUNITS"] = UNITS.get(round(1.0 / unit, 12), 0)
     document.header["$MEASUREMENT"] = 1
@@ -39,12 +47,40 @@ def write_axis_dxf(path: "Path", points: "Floats", unit: float) -> None:
     corners = points.tolist()
     if len(corners) > 1:
         space.add_polyline3d(corners, dxfattribs={"layer": LINE})
-        size = SHARE * float(np.median(np.diff(points[:, 2])))
-        for corner in corners:
-            text = f"{corner[2] / unit:.2f}"
-            note = space.add_text(text, height=size, dxfattribs={"layer": HEIGHTS})
-            note.set_placement(corner)
     for corner in corners:
         space.add_point(corner, {"layer": POINTS})
+    size, texts = TEXT * millimetre, [f"{corner[2] / unit:.2f}" for corner in corners]
+    # Beside the axis: below it where it rises to the right.
+    rises = len(points) > 1 and np.prod(points[-1, :2] - points[0, :2]) > 0.0
+    below = -1.5 if rises else 0.5
+    longest = max(map(len, texts), default=0)
+    for row in with_room(points, size * ROOM * [longest, 1.0]):
+        x, y, z = corners[row]
+        note = space.add_text(texts[row], height=size, dxfattribs={"layer": HEIGHTS})
+        space.add_circle((x, y, z), 0.5 * MARK * millimetre, {"layer": HEIGHTS})
+        note.set_placement((x + 0.5 * size, y + below * size, z))
     set_extents(document)
+    if len(corners):
+        low, high = (np.array(document.header[name])[:2] for name in ("$EXTMIN", "$EXTMAX"))
+        add_layout(document, low, high, scale, 1.0 / unit)
     document.saveas(path)
+
+
+def scale_of(points: "Floats", unit: float) -> float:
+    """Return the n of the largest scale 1:n, n = 1, 2, 5, 10 …, at which an axis fits on a page."""
+    length = float(np.ptp(points[:, :2], axis=0).max()) if len(points) else 0.0
+    least = max(1000.0 * length / unit / PAGE, 1.0)
+    power = 10.0 ** np.floor(np.log10(least))
+    return float(power * min(step for step in (1.0, 2.0, 5.0, 10.0) if step * power >= least))
+
+
+def with_room(points: "Floats", room: "Floats") -> "Ints":
+    """Levels to name, from the base up: those whose texts, ``room`` wide and high, are clear.
+
+    O(n m) for n levels of which m are named.
+    """
+    named: list[int] = []
+    for row, place in enumerate(points[:, :2]):
+        if not (abs(points[named, :2] - place) < room).all(axis=1).any():
+            named.append(row)
+    return np.array(named, dtype=np.intp)

@@ -3,10 +3,12 @@
 Coordinates are those of the map. If both edges of an object have heights, lines have those of the
 slope, figures that of their place, and fills, which are level in DXF, the mean of their outline,
 which is drawn in space around them. A layout shows all of it at scale. Objects carry their
-identifier and the number of the stroke as extended data of the application MIDRIB.
+identifier and the number of the stroke as extended data of the application MIDRIB, marks of
+problems the whole sentence; they are on a layer that is not plotted.
 """
 
 import re
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +24,8 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.content import Drawing, Drawn
     from midrib.formats.drawing.heights import Relief
     from midrib.hatching.drawn import Figure
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
+    from midrib.types import Floats
 
 __all__ = ["write_dxf"]
 
@@ -32,9 +35,11 @@ PROBLEMS = f"{APPLICATION}_PROBLEMS"
 UNITS = {1.0: 6, 0.3048: 2, 1200.0 / 3937.0: 21, 0.001: 4, 0.01: 5, 1000.0: 7}  # $INSUNITS
 FORBIDDEN = re.compile(r'[<>/\\":;?*|=`,]')  # in names of layers and blocks
 BLACK, RED = 7, 1  # colour 7 is black on white and white on black
-TEXT, MARGIN = 2.0, 10.0  # millimetres: height of notes, margin of the layout
+MARK, TEXT, MARGIN = 2.0, 1.5, 10.0  # millimetres: circles, height of notes, margin of the layout
 DASHES = ("DASHEDTINY", "DASHED2", "DASHED")  # LibreCAD draws no line types by other names
-STRING, INTEGER = 1000, 1071  # group codes of extended data
+DASHES_GO_ON = 128  # flag of flat polylines: line types do not begin anew at each vertex
+STRING, INTEGER = 1000, 1071  # group codes of extended data,
+LONGEST = 250  # whose texts have no more characters than 255
 
 
 def write_dxf(path: "Path", drawing: "Drawing") -> None:
@@ -55,7 +60,8 @@ def write_dxf(path: "Path", drawing: "Drawing") -> None:
         add_object(document, drawn)
     add_problems(document, drawing)
     set_extents(document)
-    add_layout(document, drawing)
+    low, high = drawing.bounds
+    add_layout(document, low, high, drawing.scale, drawing.metres_per_unit)
     document.saveas(path)
 
 
@@ -136,9 +142,11 @@ def add_chain(space: Any, line: Any, attributes: dict[str, Any], relief: "Relief
         if len(corners) == 2:
             return space.add_line(*corners, dxfattribs=attributes)
         return space.add_polyline3d(corners, close=closed, dxfattribs=attributes)
-    return space.add_lwpolyline(
+    chain = space.add_lwpolyline(
         points[: -1 if closed else None].tolist(), close=closed, dxfattribs=attributes
     )
+    chain.dxf.flags |= DASHES_GO_ON
+    return chain
 
 
 def block_of(document: "Document", figure: "Figure") -> str:
@@ -161,21 +169,25 @@ def block_of(document: "Document", figure: "Figure") -> str:
 
 
 def add_problems(document: "Document", drawing: "Drawing") -> None:
-    """Add notes where something is not drawn."""
-    places = [trouble for trouble in drawing.problems if trouble.where is not None]
-    if not places:
+    """Mark what is amiss: a circle, its kind and number beside it; the sentence is attached."""
+    if not any(trouble.where is not None for trouble in drawing.problems):
         return
-    document.layers.add(PROBLEMS, color=RED)
+    document.layers.add(PROBLEMS, color=RED).dxf.plot = 0
     space, attributes = document.modelspace(), {"layer": PROBLEMS}
-    for trouble in places:
-        at = trouble.where.coords[0][:2]  # type: ignore[union-attr]
-        space.add_point(at, attributes)
-        text = space.add_text(
-            f"{trouble.id}: {trouble.reason}",
-            height=TEXT * drawing.millimetre,
-            dxfattribs=attributes,
+    radius = 0.5 * MARK * drawing.millimetre
+    for number, trouble in enumerate(drawing.problems, start=1):
+        if trouble.where is None:
+            continue
+        x, y = trouble.where.coords[0][:2]
+        circle = space.add_circle((x, y), radius, attributes)
+        note = space.add_text(
+            f"{trouble.kind} {number}", height=TEXT * drawing.millimetre, dxfattribs=attributes
         )
-        text.set_placement(at)
+        note.set_placement((x + radius, y + radius))  # beside the circle, clear of it
+        told = textwrap.wrap(trouble.reason, LONGEST)
+        data = [(STRING, trouble.id), (STRING, trouble.kind), (INTEGER, number)]
+        for entity in (circle, note):
+            entity.set_xdata(APPLICATION, data + [(STRING, line) for line in told])
 
 
 def set_extents(document: "Document") -> None:
@@ -189,10 +201,12 @@ def set_extents(document: "Document") -> None:
         document.header["$EXTMIN"], document.header["$EXTMAX"] = found.extmin, found.extmax
 
 
-def add_layout(document: "Document", drawing: "Drawing") -> None:
-    """Set the first layout up so that it shows everything at scale."""
-    low, high = drawing.bounds
-    size = np.maximum((high - low) / drawing.millimetre, 1.0)
+def add_layout(
+    document: "Document", low: "Floats", high: "Floats", scale: float, metres_per_unit: float
+) -> None:
+    """Set the first layout up so that it shows what lies between two corners at scale."""
+    millimetre = scale / 1000.0 / metres_per_unit
+    size = np.maximum((high - low) / millimetre, 1.0)
     layout = document.paperspace("Layout1")
     sheet = size + 2.0 * MARGIN
     layout.page_setup(size=tuple(sheet), margins=(0, 0, 0, 0), units="mm")
@@ -200,18 +214,14 @@ def add_layout(document: "Document", drawing: "Drawing") -> None:
         center=tuple(sheet / 2.0),
         size=tuple(size),
         view_center_point=tuple((low + high) / 2.0),
-        view_height=float(high[1] - low[1]) or drawing.millimetre,
+        view_height=float(high[1] - low[1]) or millimetre,
         status=1,
     )
     # LibreCAD prints the model on paper with the limits of the layout, in units of the drawing.
-    layout.dxf.limmin, layout.dxf.limmax = (
-        (0.0, 0.0),
-        tuple(sheet / 1000.0 / drawing.metres_per_unit),
-    )
-    document.header["$PSVPSCALE"] = 1.0 / drawing.scale
-    margin = MARGIN / 1000.0 / drawing.metres_per_unit
-    document.header["$PINSBASE"] = (*(margin - low / drawing.scale), 0.0)
+    layout.dxf.limmin, layout.dxf.limmax = (0.0, 0.0), tuple(sheet / 1000.0 / metres_per_unit)
+    document.header["$PSVPSCALE"] = 1.0 / scale
+    margin = MARGIN / 1000.0 / metres_per_unit
+    document.header["$PINSBASE"] = (*(margin - low / scale), 0.0)
     document.set_modelspace_vport(
-        height=1.1 * max(float(high[1] - low[1]), drawing.millimetre),
-        center=tuple((low + high) / 2.0),
+        height=1.1 * max(float(high[1] - low[1]), millimetre), center=tuple((low + high) / 2.0)
     )

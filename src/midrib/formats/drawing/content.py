@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.heights import Relief
     from midrib.formats.reading import Geometries
     from midrib.hatching.drawn import Symbols
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
     from midrib.types import Bools, Floats, Ints
 
 __all__ = [
@@ -25,15 +25,14 @@ __all__ = [
     "LINES",
     "PROBLEMS",
     "REFUSED",
-    "STROKE",
     "Drawing",
     "Drawn",
     "Trouble",
     "layers_of",
 ]
 
-# Kinds of problems, beside those of readers: an object not drawn, not to be drawn, a stroke amiss.
-REFUSED, LEFT_OUT, STROKE = "refused", "left out", "stroke"
+# Kinds of problems, beside those of readers and checks: an object not drawn, or not to be drawn.
+REFUSED, LEFT_OUT = "refused", "left out"
 LINES, AREAS, EDGES, PROBLEMS = "strokes", "symbols", "outlines", "problems"
 GEOMETRY = "geom"
 
@@ -97,6 +96,11 @@ class Drawing:
     def n_refused(self) -> int:
         """Number of objects that should have been drawn and are not."""
         return len({trouble.id for trouble in self.problems if trouble.kind == REFUSED})
+
+    @property
+    def has_symbols(self) -> bool:
+        """Whether there is a stroke or a symbol in it; outlines are none."""
+        return any(drawn.symbols.count for drawn in self.objects)
 
     @property
     def n_raised(self) -> int:
@@ -192,7 +196,8 @@ def edge_rows(drawing: Drawing, drawn: "list[Symbols]") -> "tuple[pa.Table, Geom
 
 
 def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
-    """Rows of the layer of problems."""
+    """Rows of the layer of problems, numbered as their marks in DXF are."""
+    numbers = pa.array(range(1, len(drawing.problems) + 1), type=pa.int64())
     table = {
         "area": [trouble.id for trouble in drawing.problems],
         "problem": [trouble.kind for trouble in drawing.problems],
@@ -201,7 +206,7 @@ def problem_rows(drawing: Drawing) -> "tuple[pa.Table, Geometries]":
     columns = {name: pa.array(values, type=pa.string()) for name, values in table.items()}
     points = np.empty(len(drawing.problems), dtype=object)
     points[:] = [trouble.where for trouble in drawing.problems]
-    return pa.table(columns), points
+    return pa.table({"number": numbers} | columns), points
 
 
 def joined(parts: "list[Geometries]") -> "Geometries":

@@ -15,7 +15,7 @@ from midrib.formats.drawing.content import AREAS, EDGES, LINES, PROBLEMS, Drawin
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
 
 __all__ = ["add_styles", "style_of"]
 

@@ -9,21 +9,22 @@ from shapely import LineString, Point
 
 from midrib import interrupts
 from midrib.errors import InvalidAreaError, ParameterError
-from midrib.formats.drawing.content import LEFT_OUT, REFUSED, STROKE, Drawing, Drawn, Trouble
+from midrib.formats.drawing.content import LEFT_OUT, REFUSED, Drawing, Drawn, Trouble
 from midrib.formats.drawing.heights import relief_of
-from midrib.formats.drawing.sharing import in_step
 from midrib.formats.units import METRE, is_geographic, unit_of
+from midrib.hatching.checking import CHECK_OF
 from midrib.hatching.draw import draw
 from midrib.hatching.keys import STROKED
+from midrib.hatching.sharing import in_step
 from midrib.hatching.standards import standard_for, standards_named
 from midrib.strip import Strip
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from midrib.formats.drawing.sharing import Shared
+    from midrib.hatching.sharing import Shared
     from midrib.hatching.slope import Slope, SlopeProblem
-    from midrib.hatching.standards import Standard
+    from midrib.hatching.standard import Standard
 
 __all__ = ["check_standard", "draw_slopes", "try_out"]
 
@@ -103,7 +104,7 @@ def add_slope(
             known,
             drawing.scale,
             metres_per_unit=drawing.metres_per_unit,
-            drop=drop_of(slope),
+            drop=slope.drop,
             **options,
         )
     except InvalidAreaError as error:
@@ -114,7 +115,8 @@ def add_slope(
     drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes, relief)
     drawing.objects.append(drawn)
     for problem in [] if strokes is None else strokes.problems:
-        drawing.problems.append(Trouble(slope.id, problem.reason, problem.where, STROKE))
+        trouble = Trouble(slope.id, problem.reason, problem.where, CHECK_OF[problem.kind])
+        drawing.problems.append(trouble)
 
 
 def draw_edges_once(drawing: Drawing) -> None:
@@ -189,13 +191,6 @@ def one_crs(slopes: "Sequence[Slope]") -> str | None:
         msg = "IN has coordinates in degrees, expected a CRS in a plane: strokes are at map scale"
         raise ParameterError(msg)
     return crs
-
-
-def drop_of(slope: "Slope") -> float | None:
-    """Height of the top above the toe, None if it is not known of both."""
-    if slope.top_heights is None or slope.toe_heights is None:
-        return None
-    return float(np.mean(slope.top_heights[:, 2]) - np.mean(slope.toe_heights[:, 2]))
 
 
 def middle_of(slope: "Slope") -> Point:

@@ -1,17 +1,18 @@
 """Drawings to files: the ending chooses the format; files appear whole or not at all."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from midrib.checks import check_library
 from midrib.errors import ParameterError
+from midrib.formats.contents import column_names
 from midrib.formats.drawing.cad import write_dxf
 from midrib.formats.drawing.cartographic import write_cartographic
 from midrib.formats.drawing.content import AREAS, EDGES, LINES, PROBLEMS, Drawing, layers_of
 from midrib.formats.drawing.qgis import add_styles
 from midrib.formats.drawing.sheet import PAPERS, write_sheet
 from midrib.formats.endings import format_of
-from midrib.formats.reading import column_names
 from midrib.formats.writing import check_free, staged, write_layer
 
 if TYPE_CHECKING:
@@ -80,7 +81,9 @@ def check_places(
         raise ParameterError(msg)
 
 
-def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = None) -> list[str]:
+def write_drawing(
+    path: str | Path, drawing: Drawing, *, paper: str | None = None, marks: bool = True
+) -> list[str]:
     """Write a drawing: GPKG with a style for QGIS, DXF, SVG, PDF, GML, or any other vector file.
 
     Parameters
@@ -91,6 +94,8 @@ def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = Non
     drawing : Drawing
     paper : {"A4", "A3", "A2", "A1", "A0"}, optional
         Size of a sheet; as large as it needs to be unless given.
+    marks : bool, default True
+        Mark problems on sheets and in DXF. Formats of layers have a layer of them in any case.
 
     Returns
     -------
@@ -108,11 +113,12 @@ def write_drawing(path: str | Path, drawing: Drawing, *, paper: str | None = Non
     places, ending = places_of(path), path.suffix.lower()
     with staged(path.parent, stale=places[1:]) as stage:
         new = stage / path.name
-        if ending in SHEETS:
-            return write_sheet(new, drawing, paper)
-        if ending not in (CAD, CARTOGRAPHIC):
+        if ending not in (*SHEETS, CAD, CARTOGRAPHIC):
             return write_layers(new, drawing)
-        (write_dxf if ending == CAD else write_cartographic)(new, drawing)
+        shown = drawing if marks else replace(drawing, problems=[])
+        if ending in SHEETS:
+            return write_sheet(new, shown, paper)
+        (write_dxf if ending == CAD else write_cartographic)(new, shown)
     return []
 
 

@@ -8,8 +8,8 @@ import shapely
 from shapely import LineString, Polygon
 
 from midrib.errors import ParameterError
-from midrib.formats.drawing.sharing import in_step
 from midrib.formats.drawing.slopes import draw_slopes
+from midrib.hatching.sharing import in_step
 from midrib.hatching.slope import Slope
 
 WIDTH = 6.0

@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 from shapely import LinearRing, LineString
 
-from midrib.hatching.hatch import check_choice
+from midrib.hatching.asked import check_choice
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
