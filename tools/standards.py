@@ -3,6 +3,7 @@
 python tools/standards.py
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -193,7 +194,8 @@ def main() -> None:
         draw_picture(f"standard-{known.name}", known)
     base = standard("tadpole")
     for symbol in STROKED:
-        draw_picture(f"symbol-{symbol}", base.with_values(symbol=symbol, symbol_width=1.6))
+        changed = base.with_values(symbol=symbol, symbol_width=1.6)
+        draw_picture(f"symbol-{symbol}", replace(changed, name=f"symbol {symbol!r}"))
     (DOCS / "standards.md").write_text(page(), encoding="utf-8")
 
 
