@@ -195,7 +195,7 @@ def test_of_short_parts_the_narrow_ones_go_first() -> None:
     edges = np.column_stack([np.arange(40), np.arange(1, 41)])
     middle = np.where(np.arange(40) % 2, 0.95, 1.05)
     graph = Graph(np.column_stack([x, 0.0 * x]), edges, np.full(41, 1.0))
-    parts = Parts(graph, middle < 1.0, middle)
+    parts = Parts(graph, middle < 1.0, middle, graph)
     assert not parts_of(parts, 3.0, (1.0, 1.0)).is_narrow.any()
     assert parts_of(parts, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
 
