@@ -91,6 +91,19 @@ def test_a_pond_in_a_road_is_kept() -> None:
     assert [x for x in ends if abs(x) < 19] == pytest.approx([-mouth, mouth], abs=0.01)
 
 
+@pytest.mark.parametrize("width", [13.9, 14.5, 15.5])
+def test_a_cut_behind_a_fork_is_straight_and_ends_a_line_in_each_arm(width: float) -> None:
+    """The skeleton forks around an island between the change in the pond and its mouth."""
+    pond = box(-40, -10, 8, 10)
+    island = Polygon([(11.6, 0), (14, 1), (36, 1), (36, -1), (14, -1)])
+    area = pond.union(box(0, -6, 40, 6)).difference(island)
+    found = check(area, width)
+    assert found.areas.area == pytest.approx(pond.area, rel=1e-9)
+    ends = shapely.get_coordinates(found.lines.intersection(found.areas))
+    np.testing.assert_allclose(ends[:, 0], 8.0, rtol=1e-9)
+    assert sorted(np.sign(ends[:, 1])) == [-1.0, 1.0]
+
+
 def pond_on_canal(pond: Polygon) -> Polygon:
     """Pond about the origin on a canal 2 wide."""
     return shapely.union_all([box(-40, -1, 40, 1), pond])
@@ -198,6 +211,19 @@ def test_of_short_parts_the_narrow_ones_go_first() -> None:
     parts = Parts(graph, middle < 1.0, middle, graph)
     assert not parts_of(parts, 3.0, (1.0, 1.0)).is_narrow.any()
     assert parts_of(parts, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
+
+
+def test_what_stands_out_is_told_without_the_changes_at_a_width() -> None:
+    whole = Graph(
+        np.array([[-20, 0], [0, 0], [20, 0.0]]), np.array([[0, 1], [1, 2]]), np.array([4, 5, 4.0])
+    )
+    points = np.concatenate([whole.points, [[-3, 0], [3, 0]]])
+    edges = np.array([[0, 3], [3, 1], [1, 4], [4, 2]])
+    divided = Graph(points, edges, np.append(whole.radius, [1.0, 1.0]))
+    narrow = np.array([True, False, False, True])
+    parts = Parts(divided, narrow, np.where(narrow, 0.9, 3.0), whole)
+    assert parts_of(parts, 10.0, (1.0, 1.0)).is_narrow.all()
+    assert not parts_of(parts._replace(undivided=divided), 10.0, (1.0, 1.0)).is_narrow.all()
 
 
 def test_a_door_in_a_wall_without_thickness_is_no_part() -> None:

@@ -11,11 +11,11 @@ leave.
 """
 
 from heapq import heappop, heappush
-from itertools import pairwise
 
 import numpy as np
 import shapely
 
+from midrib.curves.cuts import beside_of
 from midrib.curves.graphs import Graph
 from midrib.layout import Scale
 from midrib.types import Bools, Floats, Ints
@@ -60,15 +60,8 @@ def stands_out(graph: Graph, scale: Scale, rows: Ints) -> Bools:
     changes would show ways out to be narrower at one width than at another. O(k log k) each for the
     k points within reach.
     """
-    length = lengths_of(graph, scale)
-    order = np.argsort(graph.edges.T.ravel(), kind="stable")
-    first = np.searchsorted(graph.edges.T.ravel()[order], np.arange(len(graph.points) + 1))
-    edge = order % len(graph.edges)
-    other = graph.edges[:, ::-1].T.ravel()[order]
-    steps = [
-        list(zip(other[a:b].tolist(), length[edge[a:b]].tolist(), strict=True))
-        for a, b in pairwise(first)
-    ]
+    length = lengths_of(graph, scale).tolist()
+    steps = [[(there, length[edge]) for edge, there in some] for some in beside_of(graph)]
     radius = graph.radius.tolist()
     return np.array([is_wider(steps, radius, int(row)) for row in rows], dtype=np.bool_)
 

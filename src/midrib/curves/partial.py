@@ -107,8 +107,7 @@ def partial_collapse(
     the two points that the disc there touches. These cuts do not cross: they are sides of a
     Delaunay triangulation of their ends. The line of a narrow part ends in a vertex of the cut, the
     same bit by bit. The areas are covered by the given ones, exactly, and the lines are covered by
-    the rest. With the same ``min_length`` areas lose, and lines gain, as the width grows, but for
-    a few parts that stand out beside a narrower way and not beside a wider one.
+    the rest. With the same ``min_length`` areas only lose, and lines only gain, as the width grows.
 
     O(n log n) beside the skeleton, for discs that reach few walls.
 
