@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from midrib.curves.turning import TURNS, turned, turned_back
 from midrib.errors import InvariantError
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.roof import Faces, faces_of, ridges_of
@@ -13,9 +14,6 @@ from midrib.ragged import normalised
 from midrib.types import Floats, Ints
 
 __all__ = ["StraightSkeleton", "straight_skeleton_in", "straight_skeleton_of"]
-
-
-TURNS = 8  # of one area in a hundred thousand on squared paper the first one is not sound
 
 
 class StraightSkeleton(NamedTuple):
@@ -84,15 +82,10 @@ def turned_roof(mesh: Mesh, angle: float) -> Roof:
     """Roof of the area of a unit mesh, found of the area turned by an angle in radians."""
     if angle == 0.0:
         return straight_skeleton(mesh)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    x, y = cosine * mesh.x - sine * mesh.y, sine * mesh.x + cosine * mesh.y
-    roof = straight_skeleton(mesh._replace(x=x, y=y))
-    back = np.array([[cosine, -sine], [sine, cosine]])
-    node = np.column_stack([roof.node[:, :2] @ back, roof.node[:, 2]])
-    # The vertices stay what they are, to the bit: one edge leaves each.
-    start = mesh.tri[mesh.twin < 0]
-    node[: len(start), 0], node[: len(start), 1] = mesh.x[start], mesh.y[start]
-    return roof._replace(node=node)
+    unit = np.ones(2)
+    roof = straight_skeleton(turned(mesh, angle, unit))
+    points = turned_back(roof.node[:, :2], roof.node[:, 2] == 0.0, mesh, angle, unit)
+    return roof._replace(node=np.column_stack([points, roof.node[:, 2]]))
 
 
 def unit_mesh(mesh: Mesh) -> tuple[Mesh, Floats, float]:
