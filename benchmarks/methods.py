@@ -10,7 +10,7 @@ needs to be told (spacing) is a quarter of the area's width.
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -139,7 +139,7 @@ def table(found: dict[str, Times], mine: str) -> str:
     return markdown(("area", f"{mine} (ms)", *(f"{name} ({TIMES})" for name in others)), rows)
 
 
-def fastest(found: dict[str, Times], ways: tuple[Way, ...], mine: str) -> str:
+def fastest(found: Mapping[str, Times], ways: tuple[Way, ...], mine: str) -> str:
     """How many times as long the fastest rival takes at a size: of those for the same, of all."""
     rivals = [way.name for way in ways if "midrib" not in way.packages]
     rows = []
