@@ -78,10 +78,21 @@ def network_lines(
             for b in there
         ]
         bad = {there[k] for k in wrong(lines, site.area)}
-        sound = [change for change in changes if not bad & {b for b, _ in change.endings}]
-        if len(sound) == len(changes):
+        if not (found := blamed(changes, bad)):
             return lines
-        changes = sound
+        changes = [change for k, change in enumerate(changes) if k not in found]
+
+
+def blamed(changes: list[Change], bad: set[int]) -> set[int]:
+    """Places of the changes that are taken back for bad branches.
+
+    Crossings first: a dead end is to blame if nothing else has changed its branch.
+    """
+    touched = [bad & {branch for branch, _ in change.endings} for change in changes]
+    is_tip = [len(change.endings) == 1 and change.inner.size == 0 for change in changes]
+    crossings = {k for k, at in enumerate(touched) if at and not is_tip[k]}
+    explained = set().union(*(touched[k] for k in crossings))
+    return crossings | {k for k, at in enumerate(touched) if at - explained}
 
 
 def crossing_change(net: Net, crossing: Crossing, ends: Ints, site: Site) -> Change:
