@@ -14,7 +14,7 @@ import midrib
 from midrib import collapse, network, skeleton
 from midrib.curves.arms import Stretch
 from midrib.curves.dead_ends import middle_of_end, site_of
-from midrib.curves.networks import wrong
+from midrib.curves.networks import Change, Ending, blamed, wrong
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -127,6 +127,19 @@ def test_a_row_of_side_roads_is_no_single_crossing() -> None:
     area = shapely.union_all([road((-9, 0), (26, 0)), *(road((x, 0), (x, y)) for x, y in places)])
     crossings = sum(n for ways, n in ways_of(network(area)).items() if ways > 2)
     assert 4 <= crossings <= 8
+
+
+def test_crossings_are_to_blame_before_dead_ends_are() -> None:
+    def change(*branches: int, inner: tuple[int, ...] = ()) -> Change:
+        ending = Ending(np.zeros((1, 2)), 1)
+        return Change({(b, 0): ending for b in branches}, np.array(inner, dtype=np.intp))
+
+    changes = [change(0, 1, 2), change(0), change(3), change(4, inner=(5,))]
+    assert blamed(changes, {0}) == {0}
+    assert blamed(changes, {3}) == {2}
+    assert blamed(changes, {1, 3}) == {0, 2}
+    assert blamed(changes, {4}) == {3}
+    assert blamed(changes, {9}) == set()
 
 
 def test_lines_are_wrong_that_meet_elsewhere_than_at_their_ends() -> None:

@@ -66,7 +66,7 @@ def test_roads_have_fewer_crossings_than_their_skeletons(place: str) -> None:
     areas = roads(place)
     crossings, junctions, inside = check(areas)
     assert crossings <= 0.85 * junctions
-    assert inside <= 0.02 * crossings + 1  # dead ends reach the edge
+    assert inside <= (0 if place == "gooi" else 0.02 * crossings + 1)  # dead ends reach the edge
 
 
 @pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
