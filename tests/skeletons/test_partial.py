@@ -191,6 +191,19 @@ def test_no_line_between_two_cuts_is_too_short(width: float) -> None:
     assert check(area, width, min_length=1.01 * whole).lines.is_empty
 
 
+@pytest.mark.parametrize("method", ["medial-axis", "straight-skeleton"])
+@pytest.mark.parametrize("width", [2.05, 2.2])
+def test_nothing_is_between_two_cuts_from_corner_to_corner(width: float, method: str) -> None:
+    """Discs on both sides of the waist touch the same two corners; a node may be on the cut."""
+    waist = Polygon([(-9, -6), (0, -1), (9, -6), (9, 6), (0, 1), (-9, 6)])
+    found, problems = partial_collapse(
+        waist, width, min_length=0.1, method=method, on_error="report"
+    )
+    assert found.areas.equals(waist)
+    assert found.lines.is_empty
+    assert problems == []
+
+
 def test_a_cut_that_fails_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("midrib.curves.dividing.cut_across", lambda *_: None)
     areas = MultiPolygon([box(20, 0, 30, 9), affinity.translate(DUMBBELL, 0, 50)])
