@@ -10,7 +10,7 @@ needs to be told (spacing) is a quarter of the area's width.
 
 import argparse
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -30,6 +30,8 @@ SIZES = (100, 1000, 10_000)
 ROUNDS, BUDGET = 3, 0.5
 SLOWEST = 5.0  # seconds at ten times the vertices; what may last longer is left out there
 GROWTH = 1.5
+COMPARED = 1000  # vertices, where the fastest rival is named
+SAME = ("pyvoronoi", "CGAL straight skeleton")  # those that find what midrib finds
 GRID = 2**30  # places of an area that pyvoronoi, which wants whole numbers, tells apart
 
 Times = dict[str, float | None]
@@ -137,6 +139,23 @@ def table(found: dict[str, Times], mine: str) -> str:
     return markdown(("area", f"{mine} (ms)", *(f"{name} ({TIMES})" for name in others)), rows)
 
 
+def fastest(found: Mapping[str, Times], ways: tuple[Way, ...], mine: str) -> str:
+    """How many times as long the fastest rival takes at a size: of those for the same, of all."""
+    rivals = [way.name for way in ways if "midrib" not in way.packages]
+    rows = []
+    for place, times in found.items():
+        family, n = place.split(" ")
+        own = times[mine]
+        if int(n) != COMPARED or not own:
+            continue
+        cells = []
+        for names in ([name for name in rivals if name in SAME], rivals):
+            ratio, name = min((times[name] or math.inf, name) for name in names)
+            cells.append(f"{ratio_text(ratio / own)} ({name})" if ratio < math.inf else MISSING)
+        rows.append((f"{family} {COMPARED:,}", *cells))
+    return markdown(("fastest rival", f"for the same ({TIMES})", f"of all ({TIMES})"), rows)
+
+
 def ratio_text(ratio: float) -> str:
     """Write a ratio with two digits or as a whole number."""
     return f"{ratio:.2g}" if ratio < 10.0 else f"{ratio:,.0f}"
@@ -161,7 +180,8 @@ def main() -> None:
     kept = {"machine": machine(), "versions": versions(), "seconds": found}
     write_json(ROOT / "out" / "methods.json" if quick else RESULTS, kept)
     for name, times in found.items():
-        text = table(times, MIDRIB[name])
+        mine = MIDRIB[name]
+        text = f"{table(times, mine)}\n{fastest(times, GROUPS[name], mine)}"
         print(text)
         if not quick:
             write_table(f"{name}.md", text)

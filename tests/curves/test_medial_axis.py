@@ -15,7 +15,11 @@ from shapely.affinity import rotate, translate
 import midrib
 from midrib import Skeleton, skeleton
 from midrib.curves import axes
+from midrib.curves.turning import turned, turned_back
 from midrib.errors import InvariantError
+from midrib.kernels.medial import medial_axis
+from midrib.layout import boundary_of
+from midrib.ragged import rings_of_area
 from tests.shapes import NAMED, VALID, rectangle, wavy_ribbon, wedge
 from tests.strategies import crowded, simple_areas, turn, with_holes
 
@@ -145,6 +149,74 @@ HARD = {
 @pytest.mark.parametrize("name", sorted(HARD))
 def test_areas_that_random_search_found_have_an_axis(name: str) -> None:
     checked(shapely.from_wkt(HARD[name]))
+
+
+COURTS = (
+    "POLYGON ((4 0, 5 0, 6 0, 7 0, 8 0, 8 -1, 8 -2, 7.5 -2.5, 8 -3, 8 -4, 8 -5, 8 -6, 7.5 -5.5, "
+    "7 -6, 7 -7, 6.5 -7.5, 7 -8, 6 -8, 5 -8, 4.5 -7.5, 4 -8, 3 -8, 2 -8, 2.5 -7.5, 2 -7, 3 -7, "
+    "3.5 -6.5, 3 -6, 3.5 -5.5, 3 -5, 2 -5, 1 -5, 1 -4, 2 -4, 2 -3, 1.5 -2.5, 1 -3, 1 -2, "
+    "1.5 -1.5, 1 -1, 1.5 -0.5, 1 0, 2 0, 3 0, 4 0), (4 -4, 4.5 -3.5, 5 -3, 4 -3, 4 -4), "
+    "(5.5 -2.5, 6 -2, 5 -2, 5 -3, 5.5 -2.5), (3.5 -4.5, 3 -4, 3 -5, 3.5 -4.5), "
+    "(6 -3, 6.5 -3.5, 7 -3, 6 -3), (6.5 -4.5, 7 -5, 7 -4, 6.5 -4.5), "
+    "(6 -5, 6.5 -5.5, 7 -5, 6 -5), (5.5 -4.5, 5 -4, 5 -5, 5.5 -4.5))"
+)
+
+
+def test_an_axis_that_rounding_loses_is_found_of_the_turned_area() -> None:
+    area = rotate(shapely.from_wkt(COURTS), 0.2, origin=(0, 0))
+    mesh = boundary_of(*rings_of_area(area)).mesh
+    assert not medial_axis(mesh, 1.0, 1.0, 1e-3)[0]
+    checked(area)
+    checked(translate(area, 5e5, 5e6))
+
+
+def test_a_turned_mesh_is_turned_back_with_its_vertices_bit_by_bit() -> None:
+    mesh = boundary_of(*rings_of_area(VALID["comb"])).mesh
+    for angle, scale in ((1.0, np.array([1.0, 1.0])), (5.0, np.array([0.5, 2.0]))):
+        there = turned(mesh, angle, scale)
+        assert np.hypot(np.diff(there.x), np.diff(there.y)) == pytest.approx(
+            np.hypot(np.diff(mesh.x) * scale[0], np.diff(mesh.y) * scale[1])
+        )
+        points = np.column_stack([there.x, there.y])
+        is_vertex = np.arange(len(points)) % 2 == 0
+        back = turned_back(points, is_vertex, mesh, angle, scale)
+        vertices = np.column_stack([mesh.x, mesh.y])
+        assert (back[is_vertex] == vertices[is_vertex]).all()
+        assert back == pytest.approx(vertices, abs=1e-12)
+
+
+SAMPLES = 400
+DISCS = {
+    **{name: VALID[name] for name in ("L", "comb", "three_islands")},
+    "courts": rotate(shapely.from_wkt(COURTS), 0.2, origin=(0, 0)),
+    "ribbon": wavy_ribbon(12, 1.0),
+    "with_hole": box(0, 0, 9, 7).difference(rotate(box(3, 2, 5, 4), 20)),
+}
+
+
+@pytest.mark.parametrize("name", sorted(DISCS))
+def test_discs_that_grow_from_the_boundary_end_on_the_axis(name: str) -> None:
+    """Each is held by its foot and grows until it touches something else: brute force."""
+    area = DISCS[name]
+    tolerance = 1e-5
+    axis = skeleton(area, "medial-axis", tolerance=tolerance).lines
+    low_x, low_y, high_x, high_y = area.bounds
+    rng = np.random.default_rng(0)
+    places = rng.uniform([low_x, low_y], [high_x, high_y], (SAMPLES, 2))
+    places = places[shapely.covers(area, shapely.points(places))]
+    nearest = shapely.shortest_line(shapely.points(places), area.boundary)
+    feet = shapely.get_coordinates(nearest)[1::2]
+    inwards = places - feet
+    far = np.hypot(*inwards.T)
+    inwards /= far[:, None]
+    low, high = far * (1 - 1e-9), np.full(len(far), high_x - low_x + high_y - low_y)
+    for _ in range(60):
+        radius = (low + high) / 2.0
+        centres = shapely.points(feet + radius[:, None] * inwards)
+        is_free = shapely.distance(centres, area.boundary) >= radius * (1 - 1e-12)
+        low, high = np.where(is_free, radius, low), np.where(is_free, high, radius)
+    centres = shapely.points(feet + low[:, None] * inwards)
+    assert shapely.distance(centres, axis).max() < 10.0 * tolerance
 
 
 @given(area=crowded())

@@ -1,5 +1,7 @@
 """Every option in every form, and every refusal with its message."""
 
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -9,7 +11,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, MultiPolygon, Point, Polygon, box
 
-from midrib import Curve, Strip, collapse, methods, minimal_radii, split
+from midrib import (
+    Curve,
+    Strip,
+    collapse,
+    label_line,
+    methods,
+    minimal_radii,
+    network,
+    partial_collapse,
+    skeleton,
+    split,
+)
 from midrib.errors import (
     GeometryTypeError,
     InvalidAreaError,
@@ -420,6 +433,16 @@ def test_a_repaired_area_warns_and_has_its_line() -> None:
     with pytest.warns(RepairedAreaWarning, match="areas\\[0\\]: repaired: Self-intersection at"):
         line = collapse(TINY_CURL)
     assert line.hausdorff_distance(LineString([(0, 1), (10, 1)])) < 0.01
+
+
+@pytest.mark.parametrize(
+    "function",
+    [collapse, network, skeleton, label_line, partial(partial_collapse, narrower_than=1.0)],
+)
+def test_a_warning_of_a_repair_names_the_line_that_called(function: Callable[..., Any]) -> None:
+    with pytest.warns(RepairedAreaWarning) as record:
+        function(TINY_CURL)
+    assert [warning.filename for warning in record] == [__file__]
 
 
 def test_a_refused_part_is_named_and_left_out() -> None:

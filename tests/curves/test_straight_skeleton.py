@@ -10,7 +10,12 @@ from hypothesis import strategies as st
 from shapely import MultiPoint, Point, Polygon, affinity, box
 
 from midrib import collapse, skeleton
-from midrib.curves.straight_skeleton import StraightSkeleton, straight_skeleton_of, unit_mesh
+from midrib.curves.straight_skeleton import (
+    StraightSkeleton,
+    straight_skeleton_of,
+    turned_roof,
+    unit_mesh,
+)
 from midrib.errors import InvariantError
 from midrib.kernels.roof import faces_of
 from midrib.kernels.straight import straight_skeleton
@@ -229,6 +234,66 @@ def test_doubling_is_exact(power: int) -> None:
     found, larger = roof_of(area), roof_of(affinity.scale(area, *[2.0**power] * 2, origin=(0, 0)))
     assert (larger.points == found.points * 2.0**power).all()
     assert (larger.time == found.time * 2.0**power).all()
+
+
+FALLS = {  # areas on squared paper, and by how many degrees they are turned
+    "longest_spoke_first": (
+        "POLYGON ((2 3, 2.5 3.5, 4.5 1.5, 2 1, 1.5 1.5, 1 1, 0 0, 0 3, 2 3),"
+        " (0.5 2.5, 1 2, 1 3, 0.5 2.5), (2.5 2.5, 3 2, 3 3, 2.5 2.5))",
+        (0, 90),
+    ),
+    "triangle_on_the_wrong_side": (
+        "POLYGON ((4 5, 5 3, 5 0, 4 1, 4 0, 3 0, 3 1, 2 0, 4 5))",
+        (30, 45, 30.000001, 77),
+    ),
+}
+TANGLED = {  # in as many things at once as these rounding decides wrongly
+    "court": (
+        "POLYGON ((0 3, 0.5 3.5, 0 4, 6.5 6.5, 7 7, 6 7, 5 7, 5.5 7.5, 5 8, 6 8, 7 8, 8 8, 7.5 7.5,"
+        " 8 7, 8 6, 8 5, 8 4, 7 4, 6 4, 5 4, 4.5 3.5, 5 3, 6 3, 6 2, 5.5 2.5, 5 2, 4.5 1.5, 5 1,"
+        " 4 1, 3.5 1.5, 3 1, 3 0, 2 0, 1.5 0.5, 1 0, 0 0, 0 3), (3 3, 4 2, 4 3, 3 3),"
+        " (2 2, 1.5 2.5, 1 2, 2 2))",
+        0,
+    ),
+    "chain": (
+        "POLYGON ((1 0, 0 0, 0 1, 1 2, 2 2, 2 3, 3 4, 4 4, 4 3, 3 3, 3 2, 4 2, 4 1, 3 1, 4 0, 3 0,"
+        " 2 0, 1 0))",
+        30,
+    ),
+}
+
+
+def is_sound(area: Polygon) -> bool:
+    """Whether the skeleton that is found at the first attempt is."""
+    mesh, _, _ = unit_mesh(boundary_of(*rings_of_area(area)).mesh)
+    return bool(faces_of(mesh, straight_skeleton(mesh)).is_sound)
+
+
+@pytest.mark.parametrize("name", sorted(FALLS))
+def test_each_rule_of_swaps_is_needed(name: str) -> None:
+    wkt, angles = FALLS[name]
+    for angle in angles:
+        assert is_sound(affinity.rotate(shapely.from_wkt(wkt), angle, origin=(0, 0)))
+
+
+@pytest.mark.parametrize("name", sorted(TANGLED))
+def test_what_rounding_decides_wrongly_is_found_of_the_turned_area(name: str) -> None:
+    wkt, angle = TANGLED[name]
+    area = affinity.rotate(shapely.from_wkt(wkt), angle, origin=(0, 0))
+    found = check_roof(area)
+    vertices = np.unique(shapely.get_coordinates(area), axis=0)
+    there = np.unique(found.points[found.time == 0.0], axis=0)
+    assert there == pytest.approx(vertices, abs=0.0 if angle == 0 else 1e-14)
+
+
+@pytest.mark.parametrize("angle", [1.0, 5.0])
+@pytest.mark.parametrize("name", ["comb", "L"])
+def test_a_turned_area_has_the_same_roof(name: str, angle: float) -> None:
+    mesh, _, _ = unit_mesh(boundary_of(*rings_of_area(VALID[name])).mesh)
+    found, turned = turned_roof(mesh, 0.0), turned_roof(mesh, angle)
+    assert faces_of(mesh, turned).is_sound
+    at, other = (np.unique(roof.node.round(9) + 0.0, axis=0) for roof in (found, turned))
+    assert other == pytest.approx(at, abs=1e-9)
 
 
 @pytest.mark.parametrize("fault", ["node", "time", "arc", "lost", "crossed"])

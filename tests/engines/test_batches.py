@@ -113,7 +113,7 @@ def test_frames_keep_their_rows_and_say_why_a_line_is_missing(source: Path) -> N
 def test_degrees_give_metres() -> None:
     area = shapely.box(20.0, 50.0, 20.01, 50.001)
     batch = pa.RecordBatch.from_pydict({"wkb": pa.array([area.wkb], type=pa.binary())})
-    rows = collapse_rows(batch, frame_recipe(pa.schema([]), "wkb", geographic=True))
+    rows = collapse_rows(batch, frame_recipe(["wkb"], "wkb", geographic=True))
     assert rows["length"][0].as_py() == pytest.approx(717.0, rel=1e-2)
 
 
@@ -127,4 +127,4 @@ def test_degrees_give_metres() -> None:
 )
 def test_frames_refuse_wrong_options_at_once(options: dict[str, object], said: str) -> None:
     with pytest.raises(ParameterError, match=said):
-        frame_recipe(pa.schema([]), **options)  # type: ignore[arg-type]
+        frame_recipe(["geometry"], **options)  # type: ignore[arg-type]

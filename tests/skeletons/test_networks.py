@@ -13,7 +13,8 @@ from shapely import LineString, MultiLineString, MultiPoint, Point, Polygon, aff
 import midrib
 from midrib import collapse, network, skeleton
 from midrib.curves.arms import Stretch
-from midrib.curves.networks import middle_of_end, site_of, wrong
+from midrib.curves.dead_ends import middle_of_end, site_of
+from midrib.curves.networks import Change, Ending, blamed, wrong
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -128,6 +129,19 @@ def test_a_row_of_side_roads_is_no_single_crossing() -> None:
     assert 4 <= crossings <= 8
 
 
+def test_crossings_are_to_blame_before_dead_ends_are() -> None:
+    def change(*branches: int, inner: tuple[int, ...] = ()) -> Change:
+        ending = Ending(np.zeros((1, 2)), 1)
+        return Change({(b, 0): ending for b in branches}, np.array(inner, dtype=np.intp))
+
+    changes = [change(0, 1, 2), change(0), change(3), change(4, inner=(5,))]
+    assert blamed(changes, {0}) == {0}
+    assert blamed(changes, {3}) == {2}
+    assert blamed(changes, {1, 3}) == {0, 2}
+    assert blamed(changes, {4}) == {3}
+    assert blamed(changes, {9}) == set()
+
+
 def test_lines_are_wrong_that_meet_elsewhere_than_at_their_ends() -> None:
     lines = [np.array(line, dtype=float) for line in ([(0, 0), (2, 0)], [(1, 0), (1, 1)])]
     assert wrong(lines, box(0, -1, 2, 2)).tolist() == [0, 1]
@@ -193,6 +207,24 @@ def test_dead_ends_of_every_skeleton_are_in_the_middle(
     assert found.hausdorff_distance(MultiPoint([(-20, 0), (20, 0), (0, 15)])) < 1e-9
 
 
+@pytest.mark.parametrize("method", ["medial-axis", "chordal-axis", "straight-skeleton"])
+@pytest.mark.parametrize("degrees", [0, 25])
+@pytest.mark.parametrize("skew", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("pieces", [2, 3, 8])
+@pytest.mark.parametrize("apart", [0.3, 0.5, 0.9, 50.0])
+def test_vertices_within_walls_move_no_dead_end(
+    method: str, degrees: float, skew: float, pieces: int, apart: float
+) -> None:
+    """A branch into a corner has points where walls begin, or is pruned up to one of these."""
+    share = np.linspace(0.0, 1.0, pieces + 1)[:, None]
+    end = np.array([20 - skew, -1.0]) + share * np.array([2.0 * skew, 2.0])
+    flat = [(-20, -1), *map(tuple, end), (1, 1), (1, 15), (-1, 15), (-1, 1), (-20, 1)]
+    area = affinity.rotate(Polygon(flat).segmentize(apart), degrees, origin=(0, 0))
+    ways = nodes_of(network(area, method))
+    found = affinity.rotate(MultiPoint([p for p, n in ways.items() if n == 1]), -degrees, (0, 0))
+    assert found.hausdorff_distance(MultiPoint([(-20, 0), (20, 0), (0, 15)])) < 1e-9
+
+
 @pytest.mark.parametrize("degrees", range(0, 360, 45))
 def test_the_flat_end_is_the_wall_ahead_not_one_beside(degrees: float) -> None:
     turn = np.radians(degrees)
@@ -200,8 +232,10 @@ def test_the_flat_end_is_the_wall_ahead_not_one_beside(degrees: float) -> None:
     ring = np.array([(0, 1), (-2, 1), (-9, 1), (-9, -1), (0, -1)]) @ rotation
     points = np.array([(0, 1), (-1, 0), (-2, -0.1)]) @ rotation
     stretch = Stretch(np.array([0.0, 1.4, 2.4]), points, np.array([0.0, 1.0, 0.9]))
-    middle = middle_of_end(stretch, site_of(Polygon(ring), (1.0, 1.0)))
-    assert middle == pytest.approx((0, 0))
+    found = middle_of_end(stretch, site_of(Polygon(ring), (1.0, 1.0)))
+    assert found is not None
+    assert found[0] == pytest.approx((0, 0))
+    assert found[1] == 1
 
 
 @pytest.mark.parametrize("method", ["medial-axis", "chordal-axis", "straight-skeleton"])

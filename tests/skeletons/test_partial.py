@@ -91,6 +91,19 @@ def test_a_pond_in_a_road_is_kept() -> None:
     assert [x for x in ends if abs(x) < 19] == pytest.approx([-mouth, mouth], abs=0.01)
 
 
+@pytest.mark.parametrize("width", [13.9, 14.5, 15.5])
+def test_a_cut_behind_a_fork_is_straight_and_ends_a_line_in_each_arm(width: float) -> None:
+    """The skeleton forks around an island between the change in the pond and its mouth."""
+    pond = box(-40, -10, 8, 10)
+    island = Polygon([(11.6, 0), (14, 1), (36, 1), (36, -1), (14, -1)])
+    area = pond.union(box(0, -6, 40, 6)).difference(island)
+    found = check(area, width)
+    assert found.areas.area == pytest.approx(pond.area, rel=1e-9)
+    ends = shapely.get_coordinates(found.lines.intersection(found.areas))
+    np.testing.assert_allclose(ends[:, 0], 8.0, rtol=1e-9)
+    assert sorted(np.sign(ends[:, 1])) == [-1.0, 1.0]
+
+
 def pond_on_canal(pond: Polygon) -> Polygon:
     """Pond about the origin on a canal 2 wide."""
     return shapely.union_all([box(-40, -1, 40, 1), pond])
@@ -178,6 +191,19 @@ def test_no_line_between_two_cuts_is_too_short(width: float) -> None:
     assert check(area, width, min_length=1.01 * whole).lines.is_empty
 
 
+@pytest.mark.parametrize("method", ["medial-axis", "straight-skeleton"])
+@pytest.mark.parametrize("width", [2.05, 2.2])
+def test_nothing_is_between_two_cuts_from_corner_to_corner(width: float, method: str) -> None:
+    """Discs on both sides of the waist touch the same two corners; a node may be on the cut."""
+    waist = Polygon([(-9, -6), (0, -1), (9, -6), (9, 6), (0, 1), (-9, 6)])
+    found, problems = partial_collapse(
+        waist, width, min_length=0.1, method=method, on_error="report"
+    )
+    assert found.areas.equals(waist)
+    assert found.lines.is_empty
+    assert problems == []
+
+
 def test_a_cut_that_fails_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("midrib.curves.dividing.cut_across", lambda *_: None)
     areas = MultiPolygon([box(20, 0, 30, 9), affinity.translate(DUMBBELL, 0, 50)])
@@ -195,9 +221,22 @@ def test_of_short_parts_the_narrow_ones_go_first() -> None:
     edges = np.column_stack([np.arange(40), np.arange(1, 41)])
     middle = np.where(np.arange(40) % 2, 0.95, 1.05)
     graph = Graph(np.column_stack([x, 0.0 * x]), edges, np.full(41, 1.0))
-    parts = Parts(graph, middle < 1.0, middle)
+    parts = Parts(graph, middle < 1.0, middle, graph)
     assert not parts_of(parts, 3.0, (1.0, 1.0)).is_narrow.any()
     assert parts_of(parts, 0.4, (1.0, 1.0)).is_narrow.tolist() == (middle < 1.0).tolist()
+
+
+def test_what_stands_out_is_told_without_the_changes_at_a_width() -> None:
+    whole = Graph(
+        np.array([[-20, 0], [0, 0], [20, 0.0]]), np.array([[0, 1], [1, 2]]), np.array([4, 5, 4.0])
+    )
+    points = np.concatenate([whole.points, [[-3, 0], [3, 0]]])
+    edges = np.array([[0, 3], [3, 1], [1, 4], [4, 2]])
+    divided = Graph(points, edges, np.append(whole.radius, [1.0, 1.0]))
+    narrow = np.array([True, False, False, True])
+    parts = Parts(divided, narrow, np.where(narrow, 0.9, 3.0), whole)
+    assert parts_of(parts, 10.0, (1.0, 1.0)).is_narrow.all()
+    assert not parts_of(parts._replace(undivided=divided), 10.0, (1.0, 1.0)).is_narrow.all()
 
 
 def test_a_door_in_a_wall_without_thickness_is_no_part() -> None:

@@ -10,6 +10,7 @@ from shapely import Polygon
 from midrib.checks import is_number, shown
 from midrib.curves.graphs import Graph, radii_of
 from midrib.curves.straight_skeleton import straight_skeleton_in
+from midrib.curves.turning import TURNS, turned, turned_back
 from midrib.errors import InvariantError, ParameterError, TooManyStationsError
 from midrib.kernels.chordal import chordal_axis
 from midrib.kernels.medial import medial_axis
@@ -82,10 +83,18 @@ def medial(*, tolerance: float | None = None) -> Axis:
         within = layout.mean_width * ARCS_WITHIN if tolerance is None else float(tolerance)
         mesh = whole_mesh(coordinates, starts, layout)
         is_done, points, radius, edges = medial_axis(mesh, *layout.scale, within)
-        if not is_done:
-            msg = "the medial axis was not found, please report this area"
-            raise InvariantError(msg)
-        return Graph(points, edges, radius)
+        if is_done:
+            return Graph(points, edges, radius)
+        scale = np.array(layout.scale)
+        for angle in range(1, TURNS):
+            is_done, points, radius, edges = medial_axis(
+                turned(mesh, angle, scale), 1.0, 1.0, within
+            )
+            if is_done:
+                points = turned_back(points, radius == 0.0, mesh, angle, scale)
+                return Graph(points, edges, radius)
+        msg = "the medial axis was not found, please report this area"
+        raise InvariantError(msg)
 
     return find
 

@@ -1,5 +1,6 @@
 """Areas in, one branchless line each out."""
 
+import sys
 import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -197,6 +198,14 @@ def check_connect(connect: Any, along: Any, ends: Any) -> None:
         raise ParameterError(msg)
 
 
+def steps_to_caller() -> int:
+    """How many calls up the one is that has called midrib, for a warning to name its line."""
+    steps, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_globals["__name__"].split(".")[0] == "midrib":
+        steps, frame = steps + 1, frame.f_back
+    return steps
+
+
 class Log:
     """What went wrong where; a strict one raises at the first refusal, any at absurd options."""
 
@@ -228,7 +237,7 @@ class Log:
             self.problems.append(Problem(self.label(index), part, status, reason))
         elif status == "repaired":
             message = self.sentence(index, part, f"repaired: {reason}")
-            warnings.warn(message, RepairedAreaWarning, stacklevel=5)
+            warnings.warn(message, RepairedAreaWarning, stacklevel=steps_to_caller())
 
     def join(self, joined: Joined, one: "Part", two: "Part") -> None:
         """Record what has become of an edge that two areas share."""

@@ -11,22 +11,29 @@ leave.
 """
 
 from heapq import heappop, heappush
-from itertools import pairwise
 
 import numpy as np
 import shapely
 
+from midrib.curves.cuts import beside_of
 from midrib.curves.graphs import Graph
 from midrib.layout import Scale
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["length_outside_junctions", "peaks_of", "stands_out"]
+__all__ = ["length_outside_junctions", "lengths_of", "peaks_of", "stands_out"]
 
 REACH = 3.0  # radii from a place to where the ways out are looked at
 WIDER = 1.4  # times the widest way out, in passing; a right-angled bend has 1.17, one of 120° 1.33
 WIDER_AT_CROSSING = 2.0  # where three ways or more leave
 WAY = 0.5  # of the widest way out: the least radius of one that makes a crossing
 JUNCTION = 3  # ways of a point that is one
+
+
+def lengths_of(graph: Graph, scale: Scale) -> Floats:
+    """Length of each edge (m,)."""
+    steps = (graph.points[graph.edges[:, 1]] - graph.points[graph.edges[:, 0]]) * scale
+    length: Floats = np.hypot(*steps.T)
+    return length
 
 
 def peaks_of(graph: Graph) -> Bools:
@@ -38,28 +45,23 @@ def peaks_of(graph: Graph) -> Bools:
     return is_peak
 
 
-def stands_out(graph: Graph, length: Floats, rows: Ints) -> Bools:
+def stands_out(graph: Graph, scale: Scale, rows: Ints) -> Bools:
     """Return which of some points are clearly wider than the ways that lead away from them.
 
     Parameters
     ----------
     graph : Graph
-    length : (m,) of each edge
+    scale : lengths of one unit of x and of y
     rows : points to look at
 
     Notes
     -----
-    That depends on the graph alone, not on any width that is asked for. O(k log k) each for the k
-    points within reach.
+    That depends on the graph alone, which must be none that was divided at the width asked for: its
+    changes would show ways out to be narrower at one width than at another. O(k log k) each for the
+    k points within reach.
     """
-    order = np.argsort(graph.edges.T.ravel(), kind="stable")
-    first = np.searchsorted(graph.edges.T.ravel()[order], np.arange(len(graph.points) + 1))
-    edge = order % len(graph.edges)
-    other = graph.edges[:, ::-1].T.ravel()[order]
-    steps = [
-        list(zip(other[a:b].tolist(), length[edge[a:b]].tolist(), strict=True))
-        for a, b in pairwise(first)
-    ]
+    length = lengths_of(graph, scale).tolist()
+    steps = [[(there, length[edge]) for edge, there in some] for some in beside_of(graph)]
     radius = graph.radius.tolist()
     return np.array([is_wider(steps, radius, int(row)) for row in rows], dtype=np.bool_)
 

@@ -5,28 +5,33 @@
          |`.                             is asked for
      ....x..p....  wide          c, c'   where the disc touches the sides next to p's narrow edge
          |.'                     cut     from c to c'; it has a vertex x where the skeleton crosses
-    -----o                               it, at which the line of the narrow part ends
+    -----o                               it, at which a line of the narrow part ends
          c'
 
 No two cuts cross: the ends of each are on a disc that has none of the others inside, and so they
 are sides of one Delaunay triangulation of all ends.
 """
 
-from typing import NamedTuple
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
 from shapely import LineString, Polygon
 
+from midrib.curves.graphs import Graph
 from midrib.layout import Scale
-from midrib.types import Floats
+from midrib.types import Floats, Ints
 
-__all__ = ["Cut", "Edge", "cut_across", "edge_of", "pieces_of"]
+__all__ = ["Beside", "Crossing", "Cut", "Edge", "beside_of", "cut_across", "edge_of", "pieces_of"]
 
 SEEN = 1.5  # times the radius: where contacts are looked for; the nearest one on either side counts
 AT_VERTEX = 2.0**-36  # of the extent: a contact this near to a vertex is the vertex
-ROUNDING = 2.0**-46  # of the coordinates: a vertex so little beyond a cut is on it
+ROUNDING = 2.0**-46  # of the coordinates: a point so near to a cut is on it
 INWARDS = (0.0, 1.0, 4.0, 16.0, 64.0)  # roundings of a coordinate, to come inside
+
+
+Beside: TypeAlias = list[list[tuple[int, int]]]
 
 
 class Edge(NamedTuple):
@@ -48,12 +53,22 @@ class Contact(NamedTuple):
     point: Floats  # (2,)
 
 
+class Crossing(NamedTuple):
+    """Where a narrow edge crosses a cut."""
+
+    edge: int
+    beyond: int  # its point behind the cut
+    share: float  # of the edge before the cut
+    point: Floats  # (2,) a vertex of the cut, the end of a line
+
+
 class Cut(NamedTuple):
     """A cut from contact to contact."""
 
     contacts: tuple[Contact, Contact]
-    crossing: Floats  # (2,) vertex on it, the end of the line
-    kept: int  # points of the way into the narrow part, from its far end, that are beyond
+    path: Floats  # (2 + k, 2) from one over the crossings to the other
+    crossings: list[Crossing]
+    before: Ints  # narrow points between the change and the cut
 
 
 def edge_of(area: Polygon, scale: Scale) -> Edge:
@@ -69,33 +84,69 @@ def edge_of(area: Polygon, scale: Scale) -> Edge:
     return Edge(area, first, last, tree, lengths, float(np.hypot(*((high - low) * lengths))))
 
 
-def cut_across(edge: Edge, way: Floats, radius: float) -> Cut | None:
-    """Cut an area at the first point of a way into a narrow part; None if that is not possible.
+def beside_of(graph: Graph) -> Beside:
+    """Edges of each point of a graph, each with the point at its other end."""
+    ends = graph.edges.T.ravel()
+    order = np.argsort(ends, kind="stable")
+    first = np.searchsorted(ends[order], np.arange(len(graph.points) + 1))
+    edge = (order % len(graph.edges)).tolist()
+    other = graph.edges[:, ::-1].T.ravel()[order].tolist()
+    both = list(zip(edge, other, strict=True))
+    return [both[a:b] for a, b in pairwise(first)]
+
+
+def cut_across(edge: Edge, narrow: Graph, beside: Beside, start: int, radius: float) -> Cut | None:
+    """Cut an area at a tip of the narrow part of its skeleton; None if that is not possible.
 
     Parameters
     ----------
     edge : Edge
-    way : (n, 2) points of the skeleton from the change on
+    narrow : the narrow part of a skeleton
+    beside : its edges and points beside each point
+    start : the tip, where the skeleton changes
     radius : of the disc around it, in lengths
+
+    Notes
+    -----
+    The disc holds the triangle p c c', and all of the skeleton in it is narrow: nearer to c or to
+    c' than p is. It leaves over the cut, in one way or, if there is a junction before, in several.
     """
-    contacts = contacts_beside(edge, way[0], way[1] - way[0], radius)
+    ((_, ahead),) = beside[start]
+    along = narrow.points[ahead] - narrow.points[start]
+    contacts = contacts_beside(edge, narrow.points[start], along, radius)
     if contacts is None:
         return None
-    ends = np.stack([contact.point for contact in contacts])
-    chord, line = LineString(ends), LineString(way)
-    met = shapely.get_coordinates(chord.intersection(line))
-    crossing, kept = way[0], len(way) - 1  # by the two radii, where the way does not get so far
-    if len(met):
-        along = shapely.line_locate_point(line, shapely.points(met))
-        at = float(along.min())
-        reached = np.append(0.0, np.cumsum(np.hypot(*np.diff(way, axis=0).T)))
-        rounding = ROUNDING * (at + np.abs(way).max())
-        beyond = int(np.count_nonzero(reached > at + rounding))
-        if beyond:
-            crossing, kept = met[np.argmin(along)], beyond
-    if not edge.area.covers(LineString([ends[0], crossing, ends[1]])):
+    first, last = (contact.point for contact in contacts)
+    chord = last - first
+    normal = np.array([-chord[1], chord[0]]) / max(np.hypot(*chord), np.finfo(float).tiny)
+    normal *= 1.0 if normal @ along > 0.0 else -1.0
+    rounding = ROUNDING * np.abs([first, last]).max()
+
+    def beyond(row: int) -> float:
+        """How far a point is beyond the cut; 0 if rounding cannot tell."""
+        far = float(normal @ (narrow.points[row] - first))
+        return far if abs(far) > rounding else 0.0
+
+    place = {start: min(beyond(start), 0.0)}
+    stack, crossings = [start], []
+    while stack:
+        here = stack.pop()
+        for k, there in beside[here]:
+            if there in place:
+                continue
+            far = beyond(there)
+            if place[here] < 0.0 and far <= 0.0:
+                place[there] = far
+                stack.append(there)
+                continue
+            share = 0.0 if place[here] == 0.0 else place[here] / (place[here] - far)
+            step = narrow.points[there] - narrow.points[here]
+            crossings.append(Crossing(k, there, share, narrow.points[here] + share * step))
+    crossings.sort(key=lambda crossing: float(chord @ (crossing.point - first)))
+    path = np.array([first, *(crossing.point for crossing in crossings), last])
+    if not edge.area.covers(LineString(path)):
         return None
-    return Cut(contacts, crossing, kept)
+    return Cut(contacts, path, crossings, np.fromiter(place, dtype=np.intp))
 
 
 def contacts_beside(
@@ -153,15 +204,8 @@ def pieces_of(edge: Edge, cuts: list[Cut]) -> list[Polygon]:
     # Each segment from its start over its contacts to its end.
     start = np.insert(edge.first, segment + 1, placed, axis=0)
     stop = np.insert(edge.last, segment, placed, axis=0)
-    across = [
-        step
-        for cut in cuts
-        for step in (
-            (cut.contacts[0].point, cut.crossing),
-            (cut.crossing, cut.contacts[1].point),
-        )
-    ]
-    segments = np.concatenate([np.stack([start, stop], axis=1), np.array(across).reshape(-1, 2, 2)])
+    across = [np.stack([cut.path[:-1], cut.path[1:]], axis=1) for cut in cuts]
+    segments = np.concatenate([np.stack([start, stop], axis=1), *across])
     distinct = (segments[:, 0] != segments[:, 1]).any(axis=1)
     faces = shapely.get_parts(shapely.polygonize(shapely.linestrings(segments[distinct])))
     inside = shapely.point_on_surface(faces)

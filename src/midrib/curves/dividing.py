@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 from shapely import LineString, MultiPolygon, Polygon
 
-from midrib.curves.cuts import Cut, Edge, cut_across, pieces_of
+from midrib.curves.contrast import lengths_of
+from midrib.curves.cuts import Cut, Edge, beside_of, cut_across, pieces_of
 from midrib.curves.graphs import Graph
 from midrib.curves.narrowing import Parts, components
 from midrib.curves.networks import network_lines
@@ -23,34 +24,6 @@ class Divided(NamedTuple):
     wide: list[Polygon]
     lines: list[Floats]
     uncut: Floats  # (k, 2) a point of each such part
-
-
-class Way(NamedTuple):
-    """A branch of the narrow part of a skeleton, and the cuts at its ends, if it has any there."""
-
-    rows: Ints
-    cuts: tuple[Cut | None, Cut | None]
-
-    @property
-    def span(self) -> tuple[int, int]:
-        """Of the rows those between the cuts."""
-        first, last = self.cuts
-        low = 0 if first is None else len(self.rows) - first.kept
-        return low, len(self.rows) if last is None else last.kept
-
-    @property
-    def inner(self) -> Ints:
-        """Rows between the cuts."""
-        low, high = self.span
-        return self.rows[low:high]
-
-    @property
-    def is_gone(self) -> bool:
-        """Whether nothing is between the cuts: they are one, or each is beyond the other."""
-        low, high = self.span
-        there = [cut for cut in self.cuts if cut is not None]
-        places = {frozenset(tuple(contact.point) for contact in cut.contacts) for cut in there}
-        return low > high or len(there) > len(places)
 
 
 def divide_area(parts: Parts, edge: Edge, radius: float, least: float, merge: float) -> Divided:
@@ -72,17 +45,16 @@ def divide_area(parts: Parts, edge: Edge, radius: float, least: float, merge: fl
     while parts.is_narrow.any():
         narrow, ends = narrow_graph(parts)
         label = components(len(narrow.points), narrow.edges)
-        ways, failed = cut_ways(narrow, ends, edge, radius)
-        short = short_parts(narrow, label, ways, edge, least)
+        cuts, failed = cuts_at(narrow, ends, edge, radius)
+        graph, fixed, label_there = graph_between(narrow, cuts, label)
+        short = short_parts(graph, label_there, np.unique(label[narrow.edges]), edge, least)
         failed = np.setdiff1d(label[failed], short)
         if failed.size == short.size == 0:
-            chains = [chain_of(narrow, way) for way in ways]
-            wide, rest, mixed = sorted_pieces(parts, chains, pieces_of(edge, cuts_of(ways)))
+            wide, rest, mixed = sorted_pieces(parts, graph, pieces_of(edge, cuts))
             if mixed.size == 0:
-                graph, fixed = graph_between(narrow, ways)
                 lines = network_lines(graph, MultiPolygon(rest), scale_of(edge), merge, fixed)
                 return Divided(wide, lines, uncut)
-            failed = np.unique([label[ways[k].rows[0]] for k in mixed])
+            failed = np.unique(label_there[mixed])
         uncut = np.concatenate([uncut, narrow.points[failed]])
         parts = without(parts, label[narrow.edges[:, 0]], np.append(failed, short))
     return Divided([edge.area], [], uncut)
@@ -108,37 +80,20 @@ def narrow_graph(parts: Parts) -> tuple[Graph, Ints]:
     return Graph(points, edges, np.concatenate([graph.radius, graph.radius[origin]])), fixed
 
 
-def cut_ways(narrow: Graph, ends: Ints, edge: Edge, radius: float) -> tuple[list[Way], Ints]:
-    """Cut the branches of the narrow part at their ends; also points of those that cannot be."""
-    rows, offsets = branches_of(len(narrow.points), narrow.edges)
-    ways: list[Way] = []
-    failed: list[int] = []
-    for branch in np.split(rows, offsets[1:-1]):
-        cuts: list[Cut | None] = []
-        for way in (branch, branch[::-1]):
-            is_end = bool(np.isin(way[0], ends))
-            cut = cut_across(edge, narrow.points[way], radius) if is_end else None
-            cuts.append(cut)
-            if is_end and cut is None:
-                failed.append(int(way[0]))
-        ways.append(Way(branch, (cuts[0], cuts[1])))
-    return ways, np.array(failed, dtype=np.intp)
+def cuts_at(narrow: Graph, ends: Ints, edge: Edge, radius: float) -> tuple[list[Cut], Ints]:
+    """Cut an area at ends of the narrow part; also those ends where that is not possible."""
+    beside = beside_of(narrow)
+    cuts = [cut_across(edge, narrow, beside, end, radius) for end in ends.tolist()]
+    failed = ends[np.array([cut is None for cut in cuts], dtype=np.bool_)]
+    return [cut for cut in cuts if cut is not None], failed
 
 
-def short_parts(narrow: Graph, label: Ints, ways: list[Way], edge: Edge, least: float) -> Ints:
-    """Labels of the narrow parts whose ways are together shorter between their cuts."""
-    run = np.zeros(len(label))
-    for way in ways:
-        steps = np.diff(chain_of(narrow, way), axis=0) * edge.scale
-        run[label[way.rows[0]]] += 0.0 if way.is_gone else np.hypot(*steps.T).sum()
-    own = np.unique(label[narrow.edges])
+def short_parts(graph: Graph, label: Ints, own: Ints, edge: Edge, least: float) -> Ints:
+    """Return which labels of narrow parts have less than a length between their cuts."""
+    length = lengths_of(graph, scale_of(edge))
+    run = np.bincount(label[graph.edges[:, 0]], length, own.max() + 1)
     short: Ints = own[run[own] < least]
     return short
-
-
-def cuts_of(ways: list[Way]) -> list[Cut]:
-    """Return all cuts."""
-    return [cut for way in ways for cut in way.cuts if cut is not None]
 
 
 def without(parts: Parts, label: Ints, gone: Ints) -> Parts:
@@ -149,11 +104,11 @@ def without(parts: Parts, label: Ints, gone: Ints) -> Parts:
 
 
 def sorted_pieces(
-    parts: Parts, chains: list[Floats], pieces: list[Polygon]
+    parts: Parts, narrow: Graph, pieces: list[Polygon]
 ) -> tuple[list[Polygon], list[Polygon], Ints]:
-    """Pieces that wide parts are in, the others, and narrow chains that are in one of the first.
+    """Pieces that wide parts are in, the others, and a point of each narrow way in the former.
 
-    A wide part is where its widest edge is, a chain where its middle is.
+    A wide part is where its widest edge is, a way where its middle is.
     """
     graph, wide = parts.graph, np.flatnonzero(~parts.is_narrow)
     part = components(len(graph.points), graph.edges[wide])[graph.edges[wide, 0]]
@@ -163,32 +118,39 @@ def sorted_pieces(
     middles = shapely.points(graph.points[graph.edges[widest]].mean(axis=1))
     is_wide = np.zeros(len(pieces), dtype=np.bool_)
     is_wide[tree.query(middles, predicate="within")[1]] = True
-    halfway = shapely.line_interpolate_point([LineString(c) for c in chains], 0.5, normalized=True)
-    chain, piece = tree.query(halfway, predicate="within")
+    rows, offsets = branches_of(len(narrow.points), narrow.edges)
+    ways = np.split(rows, offsets[1:-1])
+    chains = [LineString(narrow.points[way]) for way in ways]
+    halfway = shapely.line_interpolate_point(chains, 0.5, normalized=True)
+    way, piece = tree.query(halfway, predicate="within")
+    mixed = np.array([ways[k][0] for k in way[is_wide[piece]]], dtype=np.intp)
     rest = [pieces[k] for k in np.flatnonzero(~is_wide)]
-    return [pieces[k] for k in np.flatnonzero(is_wide)], rest, chain[is_wide[piece]]
+    return [pieces[k] for k in np.flatnonzero(is_wide)], rest, mixed
 
 
-def chain_of(narrow: Graph, way: Way) -> Floats:
-    """Points of a way between its cuts."""
-    before, behind = (np.empty((0, 2)) if c is None else c.crossing[None] for c in way.cuts)
-    return np.concatenate([before, narrow.points[way.inner], behind])
-
-
-def graph_between(narrow: Graph, ways: list[Way]) -> tuple[Graph, Ints]:
-    """Graph of the ways between their cuts, and its points that are on a cut."""
-    points, radius = [narrow.points], [narrow.radius]
-    edges, fixed, n = [], [], len(narrow.points)
-    for way in ways:
-        row = way.inner
-        for cut, end in zip(way.cuts, (0, -1), strict=True):
-            if cut is None:
-                continue
-            row = np.append(row, n) if end else np.append(n, row)
-            points.append(cut.crossing[None])
-            radius.append(narrow.radius[way.rows[[end]]])
-            fixed.append(n)
-            n += 1
-        edges.append(np.column_stack([row[:-1], row[1:]]))
-    found = Graph(np.concatenate(points), np.concatenate(edges), np.concatenate(radius))
-    return found, np.array(fixed, dtype=np.intp)
+def graph_between(narrow: Graph, cuts: list[Cut], label: Ints) -> tuple[Graph, Ints, Ints]:
+    """Graph of the narrow part between cuts, its points that are on a cut, and all labels."""
+    n = len(narrow.points)
+    crossings = [crossing for cut in cuts for crossing in cut.crossings]
+    is_before = np.zeros(n, dtype=np.bool_)
+    for cut in cuts:
+        is_before[cut.before] = True
+    crossed: dict[int, list[int]] = {}
+    for k, crossing in enumerate(crossings):
+        crossed.setdefault(crossing.edge, []).append(k)
+    edges = []
+    for on_edge in crossed.values():
+        one, other = crossings[on_edge[0]], crossings[on_edge[-1]]
+        if len(on_edge) > 1 and one.share + other.share < 1.0:
+            edges.append((n + on_edge[0], n + on_edge[-1]))
+        elif len(on_edge) == 1 and not is_before[one.beyond]:
+            edges.append((n + on_edge[0], one.beyond))
+    is_kept = ~is_before[narrow.edges].any(axis=1)
+    points = np.array([crossing.point for crossing in crossings]).reshape(-1, 2)
+    beyond = np.array([crossing.beyond for crossing in crossings], dtype=np.intp)
+    found = Graph(
+        np.concatenate([narrow.points, points]),
+        np.concatenate([narrow.edges[is_kept], np.array(edges, dtype=np.intp).reshape(-1, 2)]),
+        np.append(narrow.radius, narrow.radius[beyond]),
+    )
+    return found, n + np.arange(len(crossings)), np.append(label, label[beyond])

@@ -1,12 +1,13 @@
 """Each part of each area: what is found in it, and what is refused."""
 
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Literal, NamedTuple, TypeVar
 
 import numpy as np
 import shapely
 
 from midrib import interrupts
-from midrib.curves.collapse import Log, valid_parts
+from midrib.curves.collapse import Log, check_on_error, valid_parts
+from midrib.curves.taking import Taken, take
 from midrib.errors import MidribError
 from midrib.geodesy import degree_lengths
 from midrib.strip import PLANE
@@ -14,28 +15,51 @@ from midrib.strip import PLANE
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from numpy.typing import NDArray
     from shapely import Polygon
 
-    from midrib.curves.taking import Taken
     from midrib.layout import Scale
 
-__all__ = ["in_each_part"]
+__all__ = ["FoundInEach", "find_in_each"]
 
 Found = TypeVar("Found")
 
 
-def in_each_part(
-    taken: "Taken",
-    log: Log,
+class FoundInEach(NamedTuple, Generic[Found]):
+    """What was found in the parts of each area."""
+
+    taken: Taken
+    parts: list[list[Found]]  # of each area: none where it is missing, empty or refused
+    log: Log
+
+    @property
+    def flat(self) -> "NDArray[np.object_]":
+        """Areas, on one axis."""
+        return self.taken.array.ravel()
+
+    def is_empty(self, i: int) -> bool:
+        """Whether an area is there and has no part."""
+        return self.flat[i] is not None and bool(self.flat[i].is_empty)
+
+    def reported(self, result: Any) -> Any:
+        """Return a result, with the problems if they were asked for."""
+        return result if self.log.strict else (result, self.log.problems)
+
+
+def find_in_each(
+    areas: Any,
     find: "Callable[[Polygon, Scale], Found]",
+    on_error: Literal["raise", "report"],
+    geographic: bool | None,
     uncut: "Callable[[Found], Iterable[str]]" = lambda _: (),
-) -> list[list[Found]]:
-    """Find something in the parts of each area; nothing where they are refused or there are none.
+) -> FoundInEach[Found]:
+    """Take areas in, and find something in each part of each.
 
-    What ``uncut`` says of it is noted.
-
-    Interrupts are looked for between areas.
+    What ``uncut`` says of it is noted. Interrupts are looked for between areas.
     """
+    check_on_error(on_error)
+    taken = take(areas, geographic)
+    log = Log(taken.labels, strict=on_error == "raise")
     flat = taken.array.ravel()
     found: list[list[Found]] = [[] for _ in flat]
     with interrupts.deferred():
@@ -51,4 +75,4 @@ def in_each_part(
             found[part.area].append(here)
             for reason in uncut(here):
                 log.note(part.area, part.number, "uncut", reason)
-    return found
+    return FoundInEach(taken, found, log)

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from shapely import LineString
 
-from midrib.curves.collapse import Log, check_on_error
-from midrib.curves.each import in_each_part
+from midrib.curves.each import find_in_each
 from midrib.curves.finding import Finder
 from midrib.curves.graphs import pruned
 from midrib.curves.labels import Label, Wanted, best_label
@@ -14,7 +13,6 @@ from midrib.curves.methods import finder_of
 from midrib.curves.partial import positive
 from midrib.curves.skeletons import graph_finder
 from midrib.curves.spines import spines_of
-from midrib.curves.taking import take
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.ragged import pack_areas
 
@@ -102,7 +100,6 @@ def label_line(
     >>> round(label.lines.length, 6), round(label.heights, 6)
     (24.0, 4.0)
     """
-    check_on_error(on_error)
     sizes = {"length": length, "height": height}
     checked = {name: None if v is None else positive(v, name) for name, v in sizes.items()}
     given = [name for name, value in checked.items() if value is not None]
@@ -118,17 +115,16 @@ def label_line(
         spines = [trunk_line(trunk_of, area, scale), *spines_of(graph, area, scale)]
         return best_label(area, spines, scale, wanted)
 
-    taken = take(areas, geographic)
-    log = Log(taken.labels, strict=on_error == "raise")
-    found = in_each_part(taken, log, find)
-    best = [max(labels, key=room, default=None) for labels in found]
+    each = find_in_each(areas, find, on_error, geographic)
+    best = [max(labels, key=room, default=None) for labels in each.parts]
     lines = np.array([None, *(label and label.line for label in best)], dtype=object)[1:]
     heights = np.array([np.nan if label is None else label.height for label in best])
+    array = each.taken.array
     result = Labels(
-        taken.given_back(lines),
-        heights.reshape(taken.array.shape) if taken.array.ndim else float(heights[0]),
+        each.taken.given_back(lines),
+        heights.reshape(array.shape) if array.ndim else float(heights[0]),
     )
-    return result if on_error == "raise" else (result, log.problems)
+    return each.reported(result)
 
 
 def room(label: Label) -> float:

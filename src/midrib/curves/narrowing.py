@@ -8,6 +8,10 @@ A part, of edges that hang together, counts if it is long, and a wide one also i
 what leads to it; else it goes with what is beside it, the narrow parts first. So nothing flickers
 where an area is about as wide as asked for, ponds stay, and the places where roads meet are no
 areas of their own: their discs add nothing to the length of a wide part.
+
+As the width grows wide parts only lose: the narrow edges of a smaller width are narrow, narrow
+parts only grow, a wide part is within one that is as long, and what stands out is told by the
+skeleton as it was before it was divided.
 """
 
 from collections.abc import Callable
@@ -15,7 +19,12 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from midrib.curves.contrast import length_outside_junctions, peaks_of, stands_out
+from midrib.curves.contrast import (
+    length_outside_junctions,
+    lengths_of,
+    peaks_of,
+    stands_out,
+)
 from midrib.curves.graphs import Graph
 from midrib.layout import Scale
 from midrib.types import Bools, Floats, Ints
@@ -35,6 +44,7 @@ class Parts(NamedTuple):
     graph: Graph
     is_narrow: Bools  # (m,) of each edge
     middle: Floats  # (m,) radius in the middle of each edge
+    undivided: Graph  # the skeleton before changes were put on it; its points come first
 
 
 def divided_at(graph: Graph, radius: float, radii: Radii, scale: Scale) -> Parts:
@@ -65,7 +75,7 @@ def divided_at(graph: Graph, radius: float, radii: Radii, scale: Scale) -> Parts
     edges = np.column_stack([first, last])
     whole = Graph(points, edges, np.append(graph.radius, np.full(edge.size, radius)))
     middle_radius = radii(points[edges].mean(axis=1))
-    return Parts(whole, middle_radius < radius, middle_radius)
+    return Parts(whole, middle_radius < radius, middle_radius, graph)
 
 
 def changes(graph: Graph, radius: float, radii: Radii, scale: Scale) -> tuple[Ints, Floats, Floats]:
@@ -103,8 +113,7 @@ def parts_of(parts: Parts, least: float, scale: Scale) -> Parts:
     scale : lengths of one unit of x and of y
     """
     graph, is_narrow = parts.graph, parts.is_narrow.copy()
-    steps = graph.points[graph.edges[:, 1]] - graph.points[graph.edges[:, 0]]
-    length = np.hypot(*(steps * scale).T)
+    length = lengths_of(graph, scale)
     for narrow in (True, False):
         own = np.flatnonzero(is_narrow == narrow)
         if own.size in (0, is_narrow.size):
@@ -114,9 +123,9 @@ def parts_of(parts: Parts, least: float, scale: Scale) -> Parts:
         counted = length if narrow else length_outside_junctions(graph, length, scale)
         counts = np.bincount(part, counted[own], len(label)) >= least
         if not narrow:
-            at = np.setdiff1d(graph.edges[own], np.flatnonzero(~peaks_of(graph)))
+            at = np.intersect1d(graph.edges[own], np.flatnonzero(peaks_of(parts.undivided)))
             at = at[~counts[label[at]]]
-            counts[label[at[stands_out(graph, length, at)]]] = True
+            counts[label[at[stands_out(parts.undivided, scale, at)]]] = True
         is_narrow[own[~counts[part]]] = not narrow
     return parts._replace(is_narrow=is_narrow)
 

@@ -7,13 +7,11 @@ import shapely
 from shapely import MultiLineString
 
 from midrib.checks import is_number, shown
-from midrib.curves.collapse import Log, check_on_error
-from midrib.curves.each import in_each_part
+from midrib.curves.each import find_in_each
 from midrib.curves.graphs import trunk_of
 from midrib.curves.heights import heights_inside
 from midrib.curves.networks import network_lines
 from midrib.curves.skeletons import graph_finder, pruning
-from midrib.curves.taking import take
 from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
@@ -98,7 +96,6 @@ def network(
     >>> network(Polygon([(0, 0), (9, 0), (9, 2), (6, 2), (6, 8), (4, 8), (4, 2), (0, 2)])).wkt
     'MULTILINESTRING ((0 1, 5 1), (5 1, 5 8), (5 1, 9 1))'
     """
-    check_on_error(on_error)
     check_merge(merge)
     find_graph = graph_finder(method, **options)
     prune = pruning(min_branch_length, min_significance)
@@ -108,16 +105,12 @@ def network(
         lines = lines_of_graph(graph, prune(graph, scale), layout, area, float(merge))
         return [with_heights(layout, line) for line in lines]
 
-    taken = take(areas, geographic)
-    log = Log(taken.labels, strict=on_error == "raise")
-    found = in_each_part(taken, log, find)
-    networks = taken.array.ravel().copy()
-    for i, parts in enumerate(found):
+    each = find_in_each(areas, find, on_error, geographic)
+    networks = each.flat.copy()
+    for i, parts in enumerate(each.parts):
         lines = [shapely.linestrings(line) for part in parts for line in part]
-        is_empty = taken.array.ravel()[i] is not None and taken.array.ravel()[i].is_empty
-        networks[i] = MultiLineString(lines) if lines or is_empty else None
-    result = taken.given_back(networks)
-    return result if on_error == "raise" else (result, log.problems)
+        networks[i] = MultiLineString(lines) if lines or each.is_empty(i) else None
+    return each.reported(each.taken.given_back(networks))
 
 
 def check_merge(merge: Any) -> None:

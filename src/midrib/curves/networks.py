@@ -10,7 +10,8 @@ import numpy as np
 import shapely
 from shapely import MultiPolygon, Polygon
 
-from midrib.curves.arms import Crossing, Net, Stretch, arms_of, net_of, passed
+from midrib.curves.arms import Crossing, Net, arms_of, net_of, passed
+from midrib.curves.dead_ends import SIGNIFICANT, STRAIGHT, Site, edge_beyond, middle_of_end, site_of
 from midrib.curves.graphs import Graph
 from midrib.curves.hubs import hub_of
 from midrib.curves.junctions import crossings_of
@@ -19,17 +20,9 @@ from midrib.types import Floats, Ints
 
 __all__ = ["network_lines"]
 
-STRAIGHT = 2.0**-36  # of the extent: a vertex this near to the line between its neighbours goes
-INWARDS = (0.0, 1.0, 4.0, 16.0, 64.0)  # roundings of a coordinate, to come inside
 NONE = np.empty(0, dtype=np.intp)
 TIP = 1  # ways of a point that is one
 SAMPLES = 65  # of half a dead end
-SIGNIFICANT = 2.0  # radii that something reaches that is no corner, a corner reaches 1.41
-FEWEST = 2  # points of a dead end that tell no direction before its last one
-ON_WALL = 1e-6  # of the radius before: a dead end with less is in a corner
-LONGEST_END = 4.0  # radii: ends as skew as 30 degrees; walls of points are longer
-MIDDLE_HALF = 0.25  # of the length of a flat end
-BACK, BEYOND = 2.0, 3.0  # radii from which the direction of a dead end is taken, and it is led on
 
 
 class Ending(NamedTuple):
@@ -44,24 +37,6 @@ class Change(NamedTuple):
 
     endings: dict[tuple[int, int], Ending]  # by branch, and 0 or 1 for its first or last point
     inner: Ints
-
-
-class Site(NamedTuple):
-    """The area, to be asked what it covers."""
-
-    area: Polygon | MultiPolygon  # prepared
-    walls: shapely.STRtree  # segments of its boundary
-    scale: Floats  # (2,)
-    extent: float
-
-    @property
-    def near(self) -> Floats:
-        """How near, in coordinate units, a corner is the same."""
-        return STRAIGHT * self.extent / self.scale
-
-    def covers(self, points: Floats) -> bool:
-        """Whether a chain is inside."""
-        return bool(self.area.covers(shapely.linestrings(points)))
 
 
 def network_lines(
@@ -103,23 +78,21 @@ def network_lines(
             for b in there
         ]
         bad = {there[k] for k in wrong(lines, site.area)}
-        sound = [change for change in changes if not bad & {b for b, _ in change.endings}]
-        if len(sound) == len(changes):
+        if not (found := blamed(changes, bad)):
             return lines
-        changes = sound
+        changes = [change for k, change in enumerate(changes) if k not in found]
 
 
-def site_of(area: Polygon | MultiPolygon, scale: Scale) -> Site:
-    """Site of an area."""
-    area = shapely.force_2d(area)  # a copy, since it will be prepared
-    shapely.prepare(area)
-    rings = shapely.get_rings(shapely.get_parts(area))
-    points, ring = shapely.get_coordinates(rings, return_index=True)
-    goes_on = np.flatnonzero(ring[:-1] == ring[1:])
-    segments = shapely.linestrings(np.stack([points[goes_on], points[goes_on + 1]], axis=1))
-    low_x, low_y, high_x, high_y = area.bounds
-    extent = float(np.hypot((high_x - low_x) * scale[0], (high_y - low_y) * scale[1]))
-    return Site(area, shapely.STRtree(segments), np.array(scale), extent)
+def blamed(changes: list[Change], bad: set[int]) -> set[int]:
+    """Places of the changes that are taken back for bad branches.
+
+    Crossings first: a dead end is to blame if nothing else has changed its branch.
+    """
+    touched = [bad & {branch for branch, _ in change.endings} for change in changes]
+    is_tip = [len(change.endings) == 1 and change.inner.size == 0 for change in changes]
+    crossings = {k for k, at in enumerate(touched) if at and not is_tip[k]}
+    explained = set().union(*(touched[k] for k in crossings))
+    return crossings | {k for k, at in enumerate(touched) if at - explained}
 
 
 def crossing_change(net: Net, crossing: Crossing, ends: Ints, site: Site) -> Change:
@@ -152,9 +125,10 @@ def tip_change(net: Net, branch: int, end: int, site: Site) -> Change:
     What the disc of the tip reaches over from there is less than a corner's share.
     """
     stretch, nothing = net.stretch(branch, end), np.empty(0, np.intp)
-    middle = middle_of_end(stretch, site)
-    if middle is not None:
-        inside = min(float(stretch.arc[1]), stretch.length / 2.0)
+    flat = middle_of_end(stretch, site)
+    if flat is not None:
+        middle, at = flat
+        inside = min(float(stretch.arc[at]), stretch.length / 2.0)
         (start,), _ = stretch.at(np.array([inside]))
         points = np.stack([middle, start / site.scale])
         kept = int(np.count_nonzero(stretch.arc > inside))
@@ -173,61 +147,6 @@ def tip_change(net: Net, branch: int, end: int, site: Site) -> Change:
             kept = int(np.count_nonzero(stretch.arc > inside))
             return Change({(branch, end): Ending(points, kept)}, nothing)
     return Change({}, nothing)
-
-
-def middle_of_end(stretch: Stretch, site: Site) -> Floats | None:
-    """Middle of the flat end that a dead end runs into a corner of, None if there is none.
-
-    The last side of a triangulation leads from there into one corner. The wall from that corner on
-    is the end if it is no longer than one and the way before it, led straight on, meets its middle
-    half.
-    """
-    if len(stretch.arc) <= FEWEST or stretch.radius[0] > ON_WALL * stretch.radius[1]:
-        return None
-    corner, start, before = stretch.points[:3]
-    step = start - before
-    around = shapely.box(*(corner / site.scale - site.near), *(corner / site.scale + site.near))
-    for wall in site.walls.geometries[site.walls.query(around, predicate="intersects")]:
-        one, other = shapely.get_coordinates(wall) * site.scale
-        across, middle = other - one, (one + other) / 2.0
-        turn = step[0] * across[1] - step[1] * across[0]
-        if turn == 0.0 or np.hypot(*across) > LONGEST_END * stretch.radius[1:3].max():
-            continue
-        ahead = ((one - start)[0] * across[1] - (one - start)[1] * across[0]) / turn
-        share = ((one - start)[0] * step[1] - (one - start)[1] * step[0]) / turn
-        if ahead <= 0.0 or abs(share - 0.5) > MIDDLE_HALF:
-            continue
-        rounding = np.spacing(np.abs(np.stack([start, middle])).max())
-        back = (start - middle) / np.hypot(*(start - middle))
-        for inwards in INWARDS:
-            there: Floats = (middle + inwards * rounding * back) / site.scale
-            if site.covers(np.stack([there, start / site.scale])):
-                return there
-    return None
-
-
-def edge_beyond(stretch: Stretch, inside: float, radius: float, site: Site) -> Floats | None:
-    """Point of the edge straight on from a place on a dead end, None if there is none nearby."""
-    free = stretch.length - float(stretch.radius[-1])  # of the junction that it leads to
-    back = min(inside + BACK * radius, max(free, (3.0 * inside + stretch.length) / 4.0))
-    (start, before), _ = stretch.at(np.array([inside, back]))
-    step = start - before
-    length = np.hypot(*step)
-    if length == 0.0:
-        return None
-    reach = (inside + BEYOND * radius) * step / length
-    ray = shapely.linestrings(np.stack([start, start + reach]) / site.scale)
-    walls = site.walls.geometries[site.walls.query(ray, predicate="intersects")]
-    met = shapely.get_coordinates(shapely.intersection(walls, ray)) * site.scale
-    if len(met) == 0:
-        return None
-    edge = met[np.argmin(np.hypot(*(met - start).T))]
-    rounding = np.spacing(np.abs(np.stack([start, edge])).max())
-    for inwards in INWARDS:
-        there: Floats = (edge - inwards * rounding * step / length) / site.scale
-        if site.covers(np.stack([there, start / site.scale])):
-            return there
-    return None
 
 
 def drawn(

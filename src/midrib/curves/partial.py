@@ -7,15 +7,13 @@ import shapely
 from shapely import MultiLineString, MultiPolygon, Polygon
 
 from midrib.checks import is_number, shown
-from midrib.curves.collapse import Log, check_on_error
 from midrib.curves.cuts import edge_of
 from midrib.curves.dividing import Divided, divide_area
-from midrib.curves.each import in_each_part
+from midrib.curves.each import find_in_each
 from midrib.curves.graphs import radii_of
 from midrib.curves.narrowing import divided_at, parts_of
 from midrib.curves.network import check_merge, lines_of_graph, with_heights
 from midrib.curves.skeletons import graph_finder, pruning
-from midrib.curves.taking import take
 from midrib.errors import ParameterError
 from midrib.ragged import pack_areas
 
@@ -107,8 +105,7 @@ def partial_collapse(
     the two points that the disc there touches. These cuts do not cross: they are sides of a
     Delaunay triangulation of their ends. The line of a narrow part ends in a vertex of the cut, the
     same bit by bit. The areas are covered by the given ones, exactly, and the lines are covered by
-    the rest. With the same ``min_length`` areas lose, and lines gain, as the width grows, but for
-    a few parts that stand out beside a narrower way and not beside a wider one.
+    the rest. With the same ``min_length`` areas only lose, and lines only gain, as the width grows.
 
     O(n log n) beside the skeleton, for discs that reach few walls.
 
@@ -119,7 +116,6 @@ def partial_collapse(
     >>> found.lines.wkt, found.areas.equals(shapely.union_all([box(0, 0, 4, 4), box(9, 0, 13, 4)]))
     ('MULTILINESTRING ((9 2, 4 2))', True)
     """
-    check_on_error(on_error)
     check_merge(merge)
     width = positive(narrower_than, "narrower_than")
     least = width if min_length is None else positive(min_length, "min_length")
@@ -148,18 +144,15 @@ def partial_collapse(
         lines = [with_heights(layout, line) for line in found.lines]
         return Divided([lifted(layout, piece) for piece in found.wide], lines, found.uncut)
 
-    taken = take(areas, geographic)
-    log = Log(taken.labels, strict=on_error == "raise")
-    flat = taken.array.ravel()
-    kept, lines = flat.copy(), flat.copy()
-    for i, pieces in enumerate(in_each_part(taken, log, find, reasons)):
-        is_empty = flat[i] is not None and flat[i].is_empty
+    each = find_in_each(areas, find, on_error, geographic, reasons)
+    kept, lines = each.flat.copy(), each.flat.copy()
+    for i, pieces in enumerate(each.parts):
+        is_there = bool(pieces) or each.is_empty(i)
         wide = [area for piece in pieces for area in piece.wide]
         chains = [shapely.linestrings(line) for piece in pieces for line in piece.lines]
-        kept[i] = together(wide) if pieces or is_empty else None
-        lines[i] = MultiLineString(chains) if pieces or is_empty else None
-    partial = Partial(taken.given_back(kept), taken.given_back(lines))
-    return partial if on_error == "raise" else (partial, log.problems)
+        kept[i] = together(wide) if is_there else None
+        lines[i] = MultiLineString(chains) if is_there else None
+    return each.reported(Partial(each.taken.given_back(kept), each.taken.given_back(lines)))
 
 
 def reasons(found: Divided) -> list[str]:

@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 
-from midrib.curves.collapse import Log, check_on_error
-from midrib.curves.each import in_each_part
+from midrib.curves.each import find_in_each
 from midrib.curves.graphs import Graph, trunk_of
 from midrib.curves.skeletons import graph_finder, pruning
-from midrib.curves.taking import take
 from midrib.kernels.graph import branches_of
 
 if TYPE_CHECKING:
@@ -125,7 +123,6 @@ def skeleton(
     >>> found.trunk.wkt
     'LINESTRING (0 1, 1 1, 8 1, 9 1)'
     """
-    check_on_error(on_error)
     find_graph = graph_finder(method, **options)
     prune = pruning(min_branch_length, min_significance)
 
@@ -133,14 +130,12 @@ def skeleton(
         graph, layout = find_graph(area, scale)
         return prune(graph, scale), layout
 
-    taken = take(areas, geographic)
-    log = Log(taken.labels, strict=on_error == "raise")
-    flat = taken.array.ravel()
-    found = np.empty(flat.size, dtype=object)
-    for i, parts in enumerate(in_each_part(taken, log, find)):
-        found[i] = together(flat[i], method, parts) if parts else None
-    result = found.reshape(taken.array.shape) if taken.array.ndim else found[0]
-    return result if on_error == "raise" else (result, log.problems)
+    each = find_in_each(areas, find, on_error, geographic)
+    found = np.empty(each.flat.size, dtype=object)
+    for i, parts in enumerate(each.parts):
+        found[i] = together(each.flat[i], method, parts) if parts else None
+    array = each.taken.array
+    return each.reported(found.reshape(array.shape) if array.ndim else found[0])
 
 
 def together(

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from midrib.curves.turning import TURNS, turned, turned_back
 from midrib.errors import InvariantError
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.roof import Faces, faces_of, ridges_of
@@ -55,7 +56,9 @@ def straight_skeleton_of(coordinates: Floats, starts: Ints) -> StraightSkeleton:
     -----
     O(n log n) in practice. Things that happen within 1e-12 of the extent of each other are taken
     to happen at once. Every skeleton is checked before it is returned: nodes lie on the planes of
-    their faces to 1e-9 of the extent, and every face is one walk; see ``kernels.roof``.
+    their faces to 1e-9 of the extent, and every face is one walk; see ``kernels.roof``. One that is
+    not sound is found again of the area turned by a radian, and so on: where many things happen at
+    once, as on squared paper, rounding decides in which order, and decides anew.
     """
     return straight_skeleton_in(boundary_of(normalised(coordinates, starts)[0]).mesh)
 
@@ -63,13 +66,26 @@ def straight_skeleton_of(coordinates: Floats, starts: Ints) -> StraightSkeleton:
 def straight_skeleton_in(mesh: Mesh) -> StraightSkeleton:
     """Find the straight skeleton of the area of a mesh; see ``straight_skeleton_of``."""
     mesh, origin, unit = unit_mesh(mesh)
-    roof = straight_skeleton(mesh)
-    faces = faces_of(mesh, roof)
-    if not faces.is_sound:
+    for turn in range(TURNS):
+        roof = turned_roof(mesh, float(turn))
+        faces = faces_of(mesh, roof)
+        if faces.is_sound:
+            break
+    else:
         raise InvariantError(unsound(mesh, roof, faces))
     walks = np.split(faces.nodes, faces.offsets[1:-1])
     points = roof.node[:, :2] * unit + origin
     return StraightSkeleton(points, roof.node[:, 2] * unit, ridges_of(mesh, roof), walks)
+
+
+def turned_roof(mesh: Mesh, angle: float) -> Roof:
+    """Roof of the area of a unit mesh, found of the area turned by an angle in radians."""
+    if angle == 0.0:
+        return straight_skeleton(mesh)
+    unit = np.ones(2)
+    roof = straight_skeleton(turned(mesh, angle, unit))
+    points = turned_back(roof.node[:, :2], roof.node[:, 2] == 0.0, mesh, angle, unit)
+    return roof._replace(node=np.column_stack([points, roof.node[:, 2]]))
 
 
 def unit_mesh(mesh: Mesh) -> tuple[Mesh, Floats, float]:

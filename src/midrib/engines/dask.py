@@ -144,14 +144,7 @@ def collapse_frame(frame: Any, geometry: str = "geometry", **options: Any) -> An
         The same rows: attributes, length, width_mean, width_max, status, WKB of the line. Where an
         area was refused the line is missing and the status says why.
     """
-    if geometry not in frame.columns:
-        msg = f"geometry is {geometry!r}, expected a column: {', '.join(map(str, frame.columns))}"
-        raise ParameterError(msg)
-    recipe = frame_recipe(
-        pa.schema([(str(name), pa.null()) for name in frame.columns if name != geometry]),
-        geometry,
-        **options,
-    )
+    recipe = frame_recipe(frame.columns, geometry, **options)
     return frame.map_partitions(collapse_pandas, recipe, meta=collapse_pandas(frame._meta, recipe))
 
 

@@ -1,5 +1,6 @@
 """Frames of Spark and Dask: a column of WKB becomes lines, rows stay what they are."""
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ WIDTHS = ("columns", "m")
 
 
 def frame_recipe(
-    attributes: pa.Schema,
+    columns: Iterable[Any],
     geometry: str = "geometry",
     *,
     method: str = "minimal-radii",
@@ -28,10 +29,10 @@ def frame_recipe(
 
     Parameters
     ----------
-    attributes : pyarrow.Schema
-        Columns apart from the geometry.
+    columns : iterable
+        Names of the columns of the frame.
     geometry : str, default "geometry"
-        Column of WKB.
+        The one of WKB.
     method : str, default "minimal-radii"
         One of ``midrib.methods()``.
     geographic : bool, default False
@@ -44,13 +45,18 @@ def frame_recipe(
     Raises
     ------
     ParameterError
-        If an option is unknown or has a value it cannot have.
+        If there is no such column, or an option is unknown or has a value it cannot have.
     """
+    names = [str(name) for name in columns]
+    if geometry not in names:
+        msg = f"geometry is {geometry!r}, expected a column: {', '.join(names)}"
+        raise ParameterError(msg)
     if width not in WIDTHS:
         msg = f"width is {width!r}, expected one of {', '.join(WIDTHS)}"
         raise ParameterError(msg)
     check_options(method, options)
     crs = CRS84_TEXT if geographic else None
+    attributes = pa.schema([(name, pa.null()) for name in names if name != geometry])
     return Recipe(attributes, geometry, crs, method, options, has_m=width == "m")
 
 

@@ -22,7 +22,7 @@ from midrib.engines.frames import collapse_rows, frame_recipe
 from midrib.engines.local import largest_first
 from midrib.engines.partitions import Partition
 from midrib.engines.parts import Done, Work, make_part
-from midrib.errors import MidribError, MissingDependencyError, ParameterError
+from midrib.errors import MidribError, MissingDependencyError
 
 if TYPE_CHECKING:
     from pyspark.sql import DataFrame, SparkSession
@@ -184,12 +184,8 @@ def collapse_frame(frame: "DataFrame", geometry: str = "geometry", **options: An
     """
     from pyspark.sql.types import BinaryType, DoubleType, StringType, StructField, StructType
 
-    if geometry not in frame.columns:
-        msg = f"geometry is {geometry!r}, expected a column: {', '.join(frame.columns)}"
-        raise ParameterError(msg)
+    recipe = frame_recipe(frame.columns, geometry, **options)
     kept = [field for field in frame.schema.fields if field.name != geometry]
-    names = pa.schema([(field.name, pa.null()) for field in kept])
-    recipe = frame_recipe(names, geometry, **options)
     kinds = [DoubleType()] * 3 + [StringType(), BinaryType()]
     added = zip(recipe.lines.names[len(kept) :], kinds, strict=True)
     fields = [*kept, *(StructField(name, kind) for name, kind in added)]
