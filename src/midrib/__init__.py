@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from midrib import measures
     from midrib.comparison import Comparison, compare
-    from midrib.curves.collapse import Joint, Problem, collapse
+    from midrib.curves.collapse import collapse
     from midrib.curves.control import ControlPoints, control_points
     from midrib.curves.label import Labels, label_line
+    from midrib.curves.log import Joint, Problem
     from midrib.curves.methods import methods
     from midrib.curves.minimal_radii import Curve, minimal_radii
     from midrib.curves.network import network
@@ -76,10 +77,10 @@ HOME = {
     "Curve": "midrib.curves.minimal_radii",
     "Finding": "midrib.hatching.checking",
     "Hatching": "midrib.hatching.hatch",
-    "Joint": "midrib.curves.collapse",
+    "Joint": "midrib.curves.log",
     "Labels": "midrib.curves.label",
     "Partial": "midrib.curves.partial",
-    "Problem": "midrib.curves.collapse",
+    "Problem": "midrib.curves.log",
     "Profile": "midrib.profiles",
     "Skeleton": "midrib.curves.skeleton",
     "Slope": "midrib.formats.slopes",

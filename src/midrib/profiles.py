@@ -22,7 +22,9 @@ from shapely import LineString, MultiLineString, Polygon
 
 from midrib import interrupts
 from midrib.checks import is_number, shown
-from midrib.curves.collapse import Log, collapse, filled_parts, valid_parts
+from midrib.curves.collapse import collapse
+from midrib.curves.log import Log
+from midrib.curves.parts import filled_parts, valid_parts
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.geodesy import degree_lengths
 from midrib.kernels.clearance import clearances

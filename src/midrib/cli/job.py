@@ -7,7 +7,8 @@ import numpy as np
 import pyarrow as pa
 import shapely
 
-from midrib.curves.collapse import Joint, collapse
+from midrib.curves.collapse import collapse
+from midrib.curves.log import Joint
 from midrib.engines.batches import Counts, measured, statuses
 from midrib.engines.recipe import MEASURES
 from midrib.formats.fitting import free_name

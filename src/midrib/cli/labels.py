@@ -16,7 +16,7 @@ from midrib.formats.units import is_geographic
 
 if TYPE_CHECKING:
     from midrib.cli.job import Results
-    from midrib.curves.collapse import Problem
+    from midrib.curves.log import Problem
     from midrib.formats.reading import Batch
 
 __all__ = ["check_label", "label_layer", "point_layer"]

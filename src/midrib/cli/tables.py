@@ -10,7 +10,7 @@ import pyarrow.csv
 import shapely
 
 from midrib.cli.job import with_columns
-from midrib.curves.collapse import Log
+from midrib.curves.log import Log
 from midrib.errors import ParameterError
 from midrib.figures.profiles import MOST_PANELS, Panel, draw_profiles
 from midrib.formats.contents import listed

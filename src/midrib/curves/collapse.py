@@ -1,66 +1,33 @@
 """Areas in, one branchless line each out."""
 
-import sys
-import warnings
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from operator import is_
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
-import shapely
-from shapely import LineString, MultiLineString, MultiPolygon, Point, Polygon
+from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from midrib import interrupts
-from midrib.checks import check_flag, shown
+from midrib.checks import check_flag
 from midrib.curves.aftercare import Aftercare, aftercare, tend
-from midrib.curves.connecting import Joined, make_joints, plan_joints, straightened
+from midrib.curves.connecting import make_joints, plan_joints, straightened
 from midrib.curves.finding import Finder
-from midrib.curves.lines import Part, lines_of, polygons_of
+from midrib.curves.lines import lines_of
+from midrib.curves.log import Log, check_on_error
 from midrib.curves.methods import finder_of
+from midrib.curves.parts import Part, filled_parts, polygons_of, refused_parts, valid_parts
 from midrib.curves.taking import as_array, take
 from midrib.curves.usual import line_of_one, threads_to_use
 from midrib.errors import (
-    GeometryTypeError,
-    InvalidAreaError,
-    MidribError,
     ParameterError,
-    RepairedAreaWarning,
-    TooManyStationsError,
 )
-from midrib.ragged import without_holes
-from midrib.repair import overlaps, repaired
-from midrib.validity import is_valid
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Areas = NDArray[np.object_]
 
-__all__ = ["Joint", "Problem", "collapse"]
-
-
-@dataclass(frozen=True)
-class Problem:
-    """What there is to say about an area: refused, repaired, loops cut, bays left out, uncut."""
-
-    index: Any  # position of the area, or its label in a GeoSeries
-    part: int  # of a MultiPolygon, else 0
-    status: Literal[
-        "refused", "repaired", "loops cut", "bays left out", "joint", "no joint", "uncut"
-    ]
-    reason: str
-
-
-@dataclass(frozen=True)
-class Joint(Problem):
-    """What has become of an edge that two areas share: a joint of their lines, or none."""
-
-    other: Any  # the second area, as ``index``
-    other_part: int
-    point: Point  # where the lines meet, or the middle of the edge
-    kind: Literal["end to end", "side", "none"]  # side: the line of ``index`` ends on the other's
+__all__ = ["check_connect", "collapse", "lines_of_parts"]
 
 
 def collapse(
@@ -183,77 +150,12 @@ def collapse(
 DEFAULTS = (*(collapse.__defaults__ or ()), *(collapse.__kwdefaults__ or {}).values())
 
 
-def check_on_error(on_error: Any) -> None:
-    """Refuse what is no way to tell of areas that are refused."""
-    if not isinstance(on_error, str) or on_error not in ("raise", "report"):
-        msg = f"on_error is {shown(on_error)}, expected 'raise' or 'report'"
-        raise ParameterError(msg)
-
-
 def check_connect(connect: Any, along: Any, ends: Any) -> None:
     """Refuse other options that place ends beside ``connect``."""
     check_flag(connect, "connect")
     if connect and (along is not None or not isinstance(ends, str) or ends != "caps"):
         msg = "connect places the ends of lines, give it without along and ends"
         raise ParameterError(msg)
-
-
-def steps_to_caller() -> int:
-    """How many calls up the one is that has called midrib, for a warning to name its line."""
-    steps, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and frame.f_globals["__name__"].split(".")[0] == "midrib":
-        steps, frame = steps + 1, frame.f_back
-    return steps
-
-
-class Log:
-    """What went wrong where; a strict one raises at the first refusal, any at absurd options."""
-
-    def __init__(self, labels: Sequence[Any] | None, *, strict: bool) -> None:
-        self.problems: list[Problem] = []
-        self.labels, self.strict = labels, strict
-        self.refused: set[tuple[int, int]] = set()  # areas by position, and parts
-
-    def label(self, index: int) -> Any:
-        """Name of an area: its label in a GeoSeries, else its position."""
-        return index if self.labels is None else self.labels[index]
-
-    def refuse(self, index: int, part: int, error: MidribError) -> None:
-        """Record that an area (part) has no line, and why."""
-        if self.strict or isinstance(error, TooManyStationsError):
-            raise type(error)(self.sentence(index, part, str(error))) from error
-        self.refused.add((index, part))
-        self.problems.append(Problem(self.label(index), part, "refused", str(error)))
-
-    def note(
-        self,
-        index: int,
-        part: int,
-        status: Literal["repaired", "loops cut", "bays left out", "uncut"],
-        reason: str,
-    ) -> None:
-        """Record something about a line that is there; a strict log warns of repairs."""
-        if not self.strict:
-            self.problems.append(Problem(self.label(index), part, status, reason))
-        elif status == "repaired":
-            message = self.sentence(index, part, f"repaired: {reason}")
-            warnings.warn(message, RepairedAreaWarning, stacklevel=steps_to_caller())
-
-    def join(self, joined: Joined, one: "Part", two: "Part") -> None:
-        """Record what has become of an edge that two areas share."""
-        if self.strict:
-            return
-        name, x, y = f"areas[{self.label(two.area)}]", *joined.point
-        status: Literal["joint", "no joint"] = "no joint" if joined.kind == "none" else "joint"
-        reason = f"{joined.kind} with {name} at ({x:.12g}, {y:.12g})"
-        if joined.kind == "none":
-            reason = f"edge shared with {name} at ({x:.12g}, {y:.12g}): {joined.reason}"
-        of, other = (self.label(one.area), one.number), (self.label(two.area), two.number)
-        self.problems.append(Joint(*of, status, reason, *other, Point(x, y), joined.kind))
-
-    def sentence(self, index: int, part: int, text: str) -> str:
-        """Text with the area it is about."""
-        return f"areas[{self.label(index)}]{f' part {part}' if part else ''}: {text}"
 
 
 def guides(along: Any, count: int) -> "Areas | None":
@@ -321,60 +223,6 @@ def empty_like(area: Any) -> LineString | None:
     return LineString() if isinstance(area, BaseGeometry) and area.is_empty else None
 
 
-def valid_parts(areas: "Areas", log: Log) -> Iterator[Part]:
-    """Polygons of all areas, repaired where they are not valid."""
-    is_area = np.array([isinstance(area, Polygon | MultiPolygon) for area in areas], dtype=bool)
-    only_areas = areas.copy()
-    only_areas[~is_area] = None
-    valid = is_valid(only_areas)
-    for i, area in enumerate(areas):
-        if area is None or (isinstance(area, BaseGeometry) and area.is_empty):
-            continue
-        if not is_area[i]:
-            kind = getattr(area, "geom_type", type(area).__name__)
-            log.refuse(i, 0, GeometryTypeError(f"is a {kind}, expected a Polygon or MultiPolygon"))
-            continue
-        polygons = area.geoms if isinstance(area, MultiPolygon) else (area,)
-        if valid[i]:
-            yield from (Part(i, number, polygon) for number, polygon in enumerate(polygons))
-        else:
-            yield from apart(list(repaired_parts(i, polygons, log)), log)
-
-
-def filled_parts(parts: Iterable[Part]) -> list[Part]:
-    """Parts without their holes."""
-    return [part._replace(polygon=without_holes(part.polygon)) for part in parts]
-
-
-def repaired_parts(i: int, polygons: Sequence[Polygon], log: Log) -> Iterator[Part]:
-    """Polygons of one area, each valid by itself."""
-    for number, polygon in enumerate(polygons):
-        if polygon.is_valid and not polygon.is_empty:
-            yield Part(i, number, polygon)
-            continue
-        try:
-            pieces, reason = repaired(polygon)
-        except InvalidAreaError as error:
-            log.refuse(i, number, error)
-            continue
-        log.note(i, number, "repaired", reason)
-        yield from (Part(i, number, piece) for piece in pieces)
-
-
-def apart(parts: list[Part], log: Log) -> Iterator[Part]:
-    """Parts of one area that do not overlap others."""
-    found = overlaps([part.polygon for part in parts], [part.number for part in parts])
-    for row, part in enumerate(parts):
-        overlap = found.get(row)
-        if overlap is not None and overlap.is_refused:
-            log.refuse(part.area, part.number, InvalidAreaError(overlap.reason))
-            continue
-        if overlap is not None:
-            log.note(part.area, part.number, "repaired", overlap.reason)
-        if overlap is None or not overlap.is_left_out:
-            yield part
-
-
 def connected_lines(
     parts: list[Part],
     areas: "Areas",
@@ -396,13 +244,3 @@ def connected_lines(
     for row in joined:
         log.join(row, *(every[i] for i in row.areas))
     return lines
-
-
-def refused_parts(areas: "Areas", refused: set[tuple[int, int]]) -> Iterator[Part]:
-    """Polygons that were refused, if their coordinates are finite; others share edges with them."""
-    for i, number in sorted(refused):
-        area = areas[i]
-        if isinstance(area, Polygon | MultiPolygon):
-            polygon = area.geoms[number] if isinstance(area, MultiPolygon) else area
-            if not polygon.is_empty and np.isfinite(shapely.get_coordinates(polygon)).all():
-                yield Part(i, number, polygon)

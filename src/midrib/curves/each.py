@@ -6,7 +6,8 @@ import numpy as np
 import shapely
 
 from midrib import interrupts
-from midrib.curves.collapse import Log, check_on_error, valid_parts
+from midrib.curves.log import Log, check_on_error
+from midrib.curves.parts import valid_parts
 from midrib.curves.taking import Taken, take
 from midrib.errors import MidribError
 from midrib.geodesy import degree_lengths

@@ -1,13 +1,14 @@
 """Lines of the parts of areas: by one kernel where options are usual, else area by area."""
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from shapely import LineString, Polygon
+from shapely import LineString
 
 from midrib import interrupts
 from midrib.curves.methods import RadiiFinder
+from midrib.curves.parts import Part, polygons_of
 from midrib.curves.usual import usual_lines
 from midrib.errors import InvariantError, MidribError
 from midrib.geodesy import degree_lengths, is_beyond_pole, lengths_at
@@ -17,8 +18,8 @@ from midrib.strip import PLANE
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from midrib.curves.collapse import Log
     from midrib.curves.finding import Finder, Found
+    from midrib.curves.log import Log
     from midrib.ends import End
     from midrib.layout import Scale
     from midrib.ragged import Packed
@@ -26,22 +27,7 @@ if TYPE_CHECKING:
 
     Areas = NDArray[np.object_]
 
-__all__ = ["Part", "lines_of", "polygons_of"]
-
-
-class Part(NamedTuple):
-    """One polygon to collapse: the area it is of, its number there, itself."""
-
-    area: int
-    number: int
-    polygon: Polygon
-
-
-def polygons_of(parts: list[Part]) -> "Areas":
-    """Array of the polygons of parts."""
-    polygons: Areas = np.empty(len(parts), dtype=object)
-    polygons[:] = [part.polygon for part in parts]
-    return polygons
+__all__ = ["lines_of"]
 
 
 def lines_of(

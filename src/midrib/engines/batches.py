@@ -20,7 +20,7 @@ from midrib.profiles import add_widths
 from midrib.ragged import without_holes
 
 if TYPE_CHECKING:
-    from midrib.curves.collapse import Problem
+    from midrib.curves.log import Problem
     from midrib.engines.recipe import Recipe
     from midrib.formats.reading import Geometries
     from midrib.types import Floats
