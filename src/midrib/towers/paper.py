@@ -162,8 +162,9 @@ def steps_of_walls(
     met = [curve.points[is_inside(curve.on_auxiliary[:, 1], low, high), 1] for curve in curves[:2]]
     if not all(heights.size for heights in met):
         return None
-    told = max(heights.min() for heights in met), min(heights.max() for heights in met)
-    return PlaneSteps(direction, points, main, auxiliary, *lines, (float(told[0]), float(told[1])))
+    told = float(max(h.min() for h in met)), float(min(h.max() for h in met))
+    one, other, mean, level = lines
+    return PlaneSteps(direction, points, main, auxiliary, one, other, mean, level, told)
 
 
 def is_inside(v: "Floats", low: float, high: float) -> "Bools":

@@ -19,7 +19,7 @@ __all__ = ["LEVELS", "Shape", "TowerAxis"]
 
 LEVELS = np.dtype(
     [(name, np.float64) for name in ("z", "x", "y", "radius", "sigma", "deviation", "azimuth")]
-    + [("coverage", np.float64), ("n", np.int64), ("flag", "U96")]
+    + [("coverage", np.float64), ("n", np.int64), ("flag", "U160")]
     + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y", "sigma_inner")]
 )
 
@@ -50,9 +50,10 @@ class TowerAxis:
         inscribed circle); ``sigma`` of one coordinate of the centre; ``deviation`` from the
         vertical through the lowest level and its ``azimuth`` in degrees from y (north) clockwise;
         ``coverage``, degrees of the shell that are seen; ``n`` points; ``flag``, empty where all is
-        well; ``ovality``, longest less shortest diameter over the mean one, NaN where unknown;
-        ``residual``, standard deviation of the cells of the level; ``sigma_x``, ``sigma_y``;
-        ``sigma_inner``, ``sigma`` without registration and levelling, which move all levels alike.
+        well, else why there is no centre, or all that is wrong with it; ``ovality``, longest less
+        shortest diameter over the mean one, NaN where unknown; ``residual``, standard deviation of
+        the cells of the level; ``sigma_x``, ``sigma_y``; ``sigma_inner``, ``sigma`` without
+        registration and levelling, which move all levels alike.
         Lengths are in coordinate units. A level without an answer has NaN and a flag.
     mode : str
         "joint", "fan" or "paper".
