@@ -33,12 +33,12 @@ __all__ = ["table_sheets", "write_pdf"]
 
 A4 = (210.0, 297.0)
 MARGIN, HEADING, ROW = 15.0, 9.0, 4.2  # millimetres
-COLUMNS = (11.0, 18.0, 18.5, 14.0, 12.0, 12.0, 11.5, 9.0, 12.5, 12.0, 10.0)  # millimetres
+COLUMNS = (11.0, 19.5, 20.0, 14.0, 12.0, 12.0, 11.5, 9.0, 12.5, 12.0, 10.0)  # millimetres
 JUDGED = 14.0  # millimetres: the column of verdicts
 FLAG_ROW, LOWEST = 2.9, 18.0  # millimetres: between lines of a flag; where a sheet's rows end
 LINE = 105  # characters of a line of the summary on paper
 FOOTER = 150  # characters of a line at the foot of a sheet
-CHARACTER, GAP, EDGE = 1.25, 3.0, 8.0  # millimetres: of a flag, before it, beside it
+CHARACTER, GAP, EDGE = 1.35, 3.0, 8.0  # millimetres: of a flag, before it, beside it
 MOST_LINES = 3  # of an entry of the summary
 FLAGGED = "#a3201d"
 
@@ -88,16 +88,21 @@ def heading(sheet: Sheet, text: str, low: float) -> None:
 
 
 def write_summary(sheet: Sheet, content: Content) -> None:
-    """Write title and summary at the top of a sheet."""
+    """Write title and summary at the top of a sheet, closer where the figures leave little room."""
     top = A4[1] - MARGIN
     write_text(sheet, MARGIN, top, content.title, fontsize=FONT + 7.0)
-    lines = summary_lines(content.axis, content.tolerance, content.source)
+    lines = [
+        (name, wrap(text, LINE)[:MOST_LINES])
+        for name, text in summary_lines(content.axis, content.tolerance, content.source)
+    ]
     level = top - 10.0
-    for name, text in lines:
+    room = level - MARGIN - HEIGHTS[0] - HEIGHTS[1]
+    row = min(ROW, room / sum(len(parts) for _, parts in lines))
+    for name, parts in lines:
         write_text(sheet, MARGIN, level, name, color="#777777")
-        for part in wrap(text, LINE)[:MOST_LINES]:
+        for part in parts:
             write_text(sheet, MARGIN + 34.0, level, part)
-            level -= ROW
+            level -= row
 
 
 def table_sheets(content: Content) -> list[Sheet]:

@@ -39,8 +39,10 @@ figcaption {{ color: #555; }}
 table {{ border-collapse: collapse; font-variant-numeric: tabular-nums; }}
 th, td {{ padding: .15em .6em; border-bottom: 1px solid #ddd; text-align: right; }}
 td:last-child, th:last-child, .summary td {{ text-align: left; }}
-.summary td:first-child {{ color: #555; }}
+.summary td:first-child {{ color: #555; white-space: nowrap; vertical-align: top; }}
 .levels {{ font-size: 12px; line-height: 1.3; width: 100%; }}
+.levels th, .levels td {{ padding: .15em .4em; }}
+.levels td:not(:last-child) {{ white-space: nowrap; }} .levels td:last-child {{ min-width: 9em; }}
 .levels tr.flagged td {{ color: #a3201d; }}
 thead {{ display: table-header-group; }}
 @page {{ size: A4; margin: 14mm; }}
