@@ -86,7 +86,7 @@ def plot_verdicts(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance") -> No
     for name, colour in JUDGED.items():
         rows = found == name
         if rows.any():
-            axes.barh(z[rows], STRIP, tall, color=colour, lw=0.0, label=name,
+            axes.barh(z[rows], STRIP, tall, color=colour, edgecolor=colour, lw=0.4, label=name,
                       transform=axes.get_yaxis_transform())  # fmt: skip
 
 
