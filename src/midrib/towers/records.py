@@ -8,10 +8,11 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from midrib.towers.summary import Kink, Summary, kinks_of, summary_of
+from midrib.towers.summary import Summary, summary_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
+    from midrib.towers.kinks import Kink
     from midrib.towers.stations import Station
     from midrib.types import Bools, Floats
 
@@ -74,6 +75,9 @@ class TowerAxis:
         Points that were left out since a coordinate is missing or not finite.
     labels : int
         Stations that the points name; 0 if they name none, one, or too many.
+    kinks : list of Kink
+        Where the axis changes its direction, for certain and suddenly: by the joint fit's cells,
+        whatever the mode.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -89,6 +93,7 @@ class TowerAxis:
     stations: "list[Station]" = field(default_factory=list)
     unusable: int = 0
     labels: int = 0
+    kinks: "list[Kink]" = field(default_factory=list)
 
     @property
     def is_answered(self) -> "Bools":
@@ -115,11 +120,6 @@ class TowerAxis:
     def summary(self) -> Summary:
         """The axis as a whole: best line, straightness, largest deviation."""
         return summary_of(self.levels[self.is_answered], self.unit)
-
-    @cached_property
-    def kinks(self) -> list[Kink]:
-        """Where the axis changes its direction, for certain."""
-        return kinks_of(self.levels[self.is_answered], self.unit)
 
     def __repr__(self) -> str:
         """Show what there is of it."""
