@@ -4,10 +4,12 @@ h_j(s)    hinge: 0 below the height s_j, s - s_j above it
 β         change of direction there, of x and y
 λ, τ²     stiffness of the smooth axis and long-wave variance of a cell, as of the joint fit
 
-The joint model with β h_j in its axis is held against the one without it: by how much -2 log L
-falls, each with the stiffness that suits it best. An axis that bends smoothly is pliant anyway and
-gains little by a hinge; one that is straight on either side of a kink gains much, for without the
-hinge all of it has to be pliant. The best kink is taken in, and the search goes on beside it.
+Polynomials up to a degree are free of the penalty: they bend the tower as a whole, and would make
+the rest as pliant. The joint model with β h_j in its axis is held against the one without it: by
+how much -2 log L falls, each with the stiffness that suits it best. An axis that bends smoothly
+near by is pliant anyway and gains little by a hinge; one that is straight on either side of a kink
+gains much, for without the hinge all of it has to be pliant. The best kink is taken in and the
+search goes on beside it; in the end each has to be certain beside all others.
 
 References
 ----------
@@ -20,13 +22,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.towers.blocks import factor_of, product
-from midrib.towers.joint import LEAST_SPREAD, design_of, normals_of
+from midrib.towers.joint import design_of, normals_of
 from midrib.towers.smoothing import AXIS_STIFFNESS
 from midrib.towers.summary import azimuth_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.towers.joint import Fit
+    from midrib.towers.splines import Basis
     from midrib.types import Floats
 
 __all__ = ["Kink", "kinks_of"]
@@ -36,7 +39,10 @@ STEP, MOST = 0.5, 240  # metres between heights of kinks; how many of them at th
 SEARCHED = 2  # every second height is tried at first, and
 STIFFNESSES = AXIS_STIFFNESS[::2]  # every second stiffness: a factor of 10 is near enough
 CERTAIN = 24.0  # fall of -2 log L: by chance once in 1000 towers of 100 m, bends aside
+WORTH = 10.0  # the same, to be taken in for a trial: kinks hide each other till all are in
 LEAST_KINK = 2e-4  # change of direction: less is nothing, however certain
+BEND, BENDS = 10.0, (3, 7)  # metres of a tower for each degree of what bends all of it; bounds
+LEAST_NOISE = 1e-4  # metres, of a cell: bends that splines miss, where a scan has less noise
 FEW = 20  # kinks: an axis with more is no axis with kinks
 MENDED = 3.0  # metres: a kink may move so far once its neighbours are known
 
@@ -82,8 +88,8 @@ def kinks_of(cells: "Cells", fit: "Fit", unit: float) -> list[Kink]:
 
     Notes
     -----
-    Forward selection, then each kink once more given the others. O(q m n) for q kinks, m heights
-    that are tried and n cells.
+    Forward selection, then each kink once more given the others; those that are not certain beside
+    the others go. O(q m n) for q kinks, m heights that are tried and n cells.
     """
     low, high = float(cells.s.min()) + END * unit, float(cells.s.max()) - END * unit
     if high <= low:
@@ -97,7 +103,7 @@ def kinks_of(cells: "Cells", fit: "Fit", unit: float) -> list[Kink]:
         tried = range(0, heights.size, SEARCHED)
         free = [i for i in tried if is_apart(heights, i, chosen, APART * unit)]
         best, fall = best_of(problem, hinges, free, chosen)
-        if fall < CERTAIN:
+        if fall < WORTH:
             break
         chosen.append(best)
     for k, place in enumerate(chosen):
@@ -105,6 +111,14 @@ def kinks_of(cells: "Cells", fit: "Fit", unit: float) -> list[Kink]:
         near = np.flatnonzero(np.abs(heights - heights[place]) <= MENDED * unit)
         free = [int(i) for i in near if is_apart(heights, int(i), others, APART * unit)]
         chosen[k], _ = best_of(problem, hinges, free, others)
+    while chosen:
+        falls = [
+            best_of(problem, hinges, [i], chosen[:k] + chosen[k + 1 :])[1]
+            for k, i in enumerate(chosen)
+        ]
+        if min(falls) >= CERTAIN:
+            break
+        del chosen[int(np.argmin(falls))]
     found = [kink_at(cells, fit, problem, hinges, heights, chosen, k) for k in range(len(chosen))]
     return sorted(kink for kink in found if kink.turn > 1e3 * LEAST_KINK)
 
@@ -150,11 +164,31 @@ def problem_of(cells: "Cells", fit: "Fit", unit: float) -> Problem:
     """Return the joint fit's least squares, with a penalty for every stiffness of the axis."""
     design, _ = design_of(cells, fit.model)
     known = design @ fit.bends + fit.residual
-    variance = max(fit.variance, (LEAST_SPREAD * unit) ** 2)
+    variance = max(fit.variance, (LEAST_NOISE * unit) ** 2)
     stiffnesses = STIFFNESSES * unit
-    penalties = [fit.model.penalty(float(axis), fit.stiffness[1]) for axis in stiffnesses]
-    ranks = fit.model.bends[0] * np.log(stiffnesses)
+    axis = fit.model.axis
+    degree = int(np.clip(round((axis.knots[-1] - axis.knots[0]) / (BEND * unit)), *BENDS))
+    size, free = axis.size, free_of_bends(axis, degree)
+    penalties = []
+    for stiffness in stiffnesses:
+        penalty = fit.model.penalty(0.0, fit.stiffness[1])
+        for first in (0, size):
+            penalty[first : first + size, first : first + size] = stiffness * free
+        penalties.append(penalty)
+    ranks = (fit.model.bends[0] - 2 * (degree - 1)) * np.log(stiffnesses)
     return Problem(design, known, fit.weight / variance, penalties, ranks)
+
+
+def free_of_bends(axis: "Basis", degree: int) -> "Floats":
+    """Penalty (size, size) of an axis that polynomials up to a degree are free of."""
+    low, high = axis.knots[0], axis.knots[-1]
+    share = np.linspace(-1.0, 1.0, 4 * axis.size)
+    bends = np.polynomial.legendre.legvander(share, degree)[:, 2:]
+    at = low + (share + 1.0) / 2.0 * (high - low)
+    spanned = np.linalg.lstsq(axis.design(at), bends, rcond=None)[0]
+    held = axis.penalty @ spanned
+    free: Floats = axis.penalty - held @ np.linalg.pinv(spanned.T @ held) @ held.T
+    return (free + free.T) / 2.0
 
 
 def hinge_of(cells: "Cells", at: float) -> "Floats":
