@@ -43,6 +43,7 @@ WORTH = 10.0  # the same, to be taken in for a trial: kinks hide each other till
 LEAST_KINK = 2e-4  # change of direction: less is nothing, however certain
 BEND, BENDS = 10.0, (3, 7)  # metres of a tower for each degree of what bends all of it; bounds
 LEAST_NOISE = 1e-4  # metres, of a cell: bends that splines miss, where a scan has less noise
+SUDDEN = 0.25  # of what the axis turns by from 2.5 m below to 2.5 m above: less is a bend's
 FEW = 20  # kinks: an axis with more is no axis with kinks
 MENDED = 3.0  # metres: a kink may move so far once its neighbours are known
 
@@ -120,7 +121,13 @@ def kinks_of(cells: "Cells", fit: "Fit", unit: float) -> list[Kink]:
             break
         del chosen[int(np.argmin(falls))]
     found = [kink_at(cells, fit, problem, hinges, heights, chosen, k) for k in range(len(chosen))]
-    return sorted(kink for kink in found if kink.turn > 1e3 * LEAST_KINK)
+    half = APART * unit / 2.0
+    ends = [heights[i] + np.array([-half, half]) for i in chosen]
+    least = [
+        max(LEAST_KINK, SUDDEN * float(np.hypot(*np.diff(fit.slopes(pair), axis=0)[0])))
+        for pair in ends
+    ]
+    return sorted(k for k, turn in zip(found, least, strict=True) if k.turn > 1e3 * turn)
 
 
 def is_apart(heights: "Floats", i: int, chosen: list[int], least: float) -> bool:
