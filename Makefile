@@ -44,6 +44,7 @@ quality: $(VENV)/ready
 	$(BIN)/python benchmarks/hatching_limits.py
 	$(BIN)/python benchmarks/drawn_by_others.py
 	$(BIN)/python benchmarks/towers.py
+	$(BIN)/python benchmarks/tower_kinks.py
 
 # Warnings are errors, pages of names and figures that are gone among them: all are made anew.
 docs: $(VENV)/ready

@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/holes.md and docs/straight.md.
+"""Draw the pictures of docs/holes.md, docs/straight.md and docs/towers.md.
 
 python tools/pictures.py
 """
@@ -10,12 +10,16 @@ import numpy as np
 import shapely
 from shapely import LineString, Polygon, box
 
+from midrib import tower_axis
 from midrib.comparison import compare
 from midrib.curves.straight_skeleton import straight_skeleton_of
 from midrib.figures.comparison import draw_comparison
 from midrib.figures.draw import draw_collapse
 from midrib.figures.paper import save
+from midrib.figures.tower_pages import draw_deviation
 from midrib.ragged import pack_areas
+from midrib.towers.simulate import Scan, Tower
+from midrib.towers.tolerance import tolerance_from
 from midrib.types import Floats
 
 FOLDER = Path(__file__).parents[1] / "docs" / "pictures"
@@ -116,11 +120,21 @@ def draw_roof(area: Polygon, path: Path) -> None:
     plt.close(figure)
 
 
+def draw_tower(path: Path) -> None:
+    """Draw deviations of a bent and kinked tower, with verdicts against a tolerance."""
+    tower = Tower(60.0, 3.0, 1.6, lean=0.07, lean_azimuth=30.0, kink=6.0, kink_spacing=20.0, seed=2)
+    clutter = {"ladder": 40.0, "platforms": (0.5,), "outliers": 0.01}
+    scan = Scan(tower, count=300_000, noise=(0.002, 0.004), seed=8, **clutter)
+    axis = tower_axis(scan.points(), registration=0.002)
+    save(draw_deviation(axis, tolerance_from("20mm + h/1000")), path)
+
+
 def main() -> None:
     """Draw them all."""
     FOLDER.mkdir(exist_ok=True)
     draw_roof(building(), FOLDER / "straight-skeleton.svg")
     draw_comparison(compare(river()), FOLDER / "methods.svg", width=2.0 * WIDTH)
+    draw_tower(FOLDER / "tower.svg")
     for name, (area, options) in PICTURES.items():
         draw_collapse(area, FOLDER / f"{name}.svg", width=WIDTH, **options)
 

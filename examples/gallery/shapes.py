@@ -11,10 +11,13 @@ import shapely
 from shapely import LineString, box
 
 from midrib import Strip
+from midrib.towers import Scan, Tower, TowerAxis
 
 __all__ = [
+    "BULGE",
     "NOTCH",
     "chain",
+    "chimney",
     "conveyor",
     "disjoint",
     "disturbed",
@@ -23,6 +26,7 @@ __all__ = [
     "polygonal",
     "regular_embankment",
     "sample",
+    "true_axis",
     "variants",
 ]
 
@@ -103,3 +107,28 @@ def conveyor() -> Strip:
     x = np.linspace(0.0, 30.0, 61)
     y = 3.0 * np.sin(x / 10.0)
     return Strip(LineString(np.column_stack([x, y + 2.4])), LineString(np.column_stack([x, y])))
+
+
+BULGE = (55.0, 0.05)  # height in metres and depth, in metres, of the bulge of ``chimney``
+
+
+def chimney() -> tuple[Scan, np.ndarray]:
+    """Figures 14 and 15: a scan of a chimney 60 m high, and its points; the top is disturbed.
+
+    A bulge on the western side, 3 m high, as where a lining came loose.
+    """
+    tower = Tower(60.0, 3.0, 1.6, lean=0.08, bend=0.02, form_error=0.0005)
+    scan = Scan(tower, count=600_000, noise=(0.002, 0.004), ladder=40.0, seed=14)
+    points = scan.points()
+    height, depth = BULGE
+    away = np.hypot(points[:, 0], points[:, 1])
+    off = depth * np.exp(-(((points[:, 2] - height) / 1.5) ** 2)) * (points[:, 0] < 0.0)
+    points[:, :2] += points[:, :2] / away[:, None] * off[:, None]
+    return scan, points
+
+
+def true_axis(scan: Scan, axis: TowerAxis, direction: np.ndarray) -> np.ndarray:
+    """Make the true axis a chain (n, 2) in a plane of ``mode="paper"``: across it and upwards."""
+    z = np.linspace(0.0, scan.tower.height, 601)
+    inner = axis.cells.reference.frame.inwards(np.column_stack([scan.axis(z), z]))
+    return np.column_stack([inner[:, :2] @ direction, inner[:, 2]])

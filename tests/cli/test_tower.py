@@ -35,8 +35,8 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert outcome.code == 0, outcome.err
     page = places[0].read_text(encoding="utf-8")
     assert "<h1>A&lt;B</h1>" in page
-    assert page.count("<svg") == 3
-    assert "no level is beyond it" in page
+    assert page.count("<svg") == 4
+    assert "0 beyond" not in page
     assert "leans by 2.50 mm/m" in outcome.out
     table = csv.read_csv(places[1])
     assert page.count("<tr") == table.num_rows + 2 + outcome.out.count("\n")

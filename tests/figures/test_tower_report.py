@@ -1,16 +1,19 @@
 """What a report on a tower says and draws."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
+from midrib.figures.tower_paper import table_sheets
 from midrib.figures.tower_plots import shape_outline
-from midrib.figures.tower_report import Content, notes, rows_of_levels, summary_lines, table_sheet
+from midrib.figures.tower_text import Content, headings_of, notes, rows_of_levels, summary_lines
 from midrib.towers.cloud import ArrayCloud
 from midrib.towers.pipeline import Options, axis_of
 from midrib.towers.records import TowerAxis
 from midrib.towers.simulate import Tower
+from midrib.towers.tolerance import Tolerance, tolerance_from, verdicts
 from tests.towers.scans import dirty
 
 OVAL = Tower(height=40.0, base_radius=2.5, top_radius=1.5, lean=0.1, oval=0.03, twist=30.0)
@@ -22,9 +25,9 @@ def oval() -> TowerAxis:
     return axis_of(ArrayCloud(dirty(OVAL).points()), Options())
 
 
-def told(axis: TowerAxis, name: str) -> str:
+def told(axis: TowerAxis, name: str, tolerance: Tolerance | None = None) -> str:
     """One entry of the summary."""
-    return next(text for key, text in summary_lines(axis) if key == name)
+    return next(text for key, text in summary_lines(axis, tolerance) if key == name)
 
 
 def test_an_oval_is_described_and_drawn(oval: TowerAxis) -> None:
@@ -45,12 +48,62 @@ def test_stations_are_always_told_of(oval: TowerAxis) -> None:
 def test_zeros_have_no_sign_and_flags_stay_on_the_paper(oval: TowerAxis) -> None:
     levels = oval.levels.copy()
     levels["y"] = -1e-7
-    levels["flag"] = "sections have 5 lobes of 12.3 mm, which a circle does not have"
-    rows = rows_of_levels(replace(oval, levels=levels))
-    assert {row[2] for row in rows} == {"0.0000"}
-    figure = table_sheet(rows[:5]).figure
-    right = figure.bbox.x1
-    assert all(text.get_window_extent().x1 < right for text in figure.texts)
+    levels["flag"] = "uncertain by 12.3 mm; radius from taper prior; stations not put together"
+    axis = replace(oval, levels=levels)
+    assert {row[2] for row in rows_of_levels(axis)} == {"0.0000"}
+    for tolerance in (None, tolerance_from("20mm")):
+        sheets = table_sheets(Content("a", axis, tolerance, "", ""))
+        assert sum(
+            "uncertain" in text.get_text() for s in sheets for text in s.figure.texts
+        ) == len(levels)
+        for sheet in sheets:
+            boxes = [text.get_window_extent() for text in sheet.figure.texts]
+            assert max(box.x1 for box in boxes) < sheet.figure.bbox.x1
+            assert min(box.y0 for box in boxes) > 15.0 / 297.0 * sheet.figure.bbox.height
+            flags = sorted(
+                (box for box in boxes if box.x0 > 0.85 * sheet.figure.bbox.x1),
+                key=lambda box: box.y0,
+            )
+            assert all(low.y1 < high.y1 for low, high in pairwise(flags))
+
+
+def test_levels_are_beyond_undecided_or_within(oval: TowerAxis) -> None:
+    """A tolerance at a level's own deviation decides nothing; half an interval more does."""
+    levels = oval.levels[oval.is_answered]
+    top, base = levels[-1], levels[0]
+    half = 1.96 * np.hypot(top["sigma"], base["sigma_inner"])
+    for off, expected in (
+        (1.01, "within"),
+        (0.5, "undecided"),
+        (-0.5, "undecided"),
+        (-1.01, "beyond"),
+    ):
+        tolerance = Tolerance("", float(top["deviation"] + off * half), 0.0)
+        assert verdicts(levels, tolerance, oval.unit)[-1] == expected
+        assert verdicts(levels, tolerance, oval.unit)[0] == "within"
+    missing = oval.levels.copy()
+    missing["x"][3] = np.nan
+    tolerance = tolerance_from("40mm")
+    judged = verdicts(missing, tolerance, oval.unit)
+    assert judged[3] == ""
+    assert set(judged) == {"", "beyond", "undecided", "within"}
+    text = told(replace(oval, levels=missing), "tolerance", tolerance)
+    for name in ("beyond", "undecided", "within"):
+        assert f"{(judged == name).sum()} {name}" in text
+    at = headings_of(tolerance).index("tolerance")
+    rows = rows_of_levels(replace(oval, levels=missing), tolerance)
+    assert [row[at] for row in rows[::-1]] == judged.tolist()
+    assert {len(row) for row in rows} == {len(headings_of(tolerance))}
+
+
+def test_verdicts_do_not_depend_on_the_unit(oval: TowerAxis) -> None:
+    large = oval.levels.copy()
+    for name in ("x", "y", "z", "deviation", "sigma", "sigma_inner"):
+        large[name] *= 1e3
+    tolerance = tolerance_from("10mm + h/1000")
+    assert (
+        verdicts(large, tolerance, 1e3).tolist() == verdicts(oval.levels, tolerance, 1.0).tolist()
+    )
 
 
 def test_notes_tell_of_sigma_and_azimuth(oval: TowerAxis) -> None:

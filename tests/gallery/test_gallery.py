@@ -26,6 +26,10 @@ mpl.use("Agg")
 
 FOLDER = Path(__file__).parents[2] / "examples" / "gallery"
 SCRIPTS = sorted(path.stem for path in FOLDER.glob("plot_*.py"))
+NAMED = {
+    "plot_14_chimney": {"main curve", "auxiliary curve", "curve of minimal radii"},
+    "plot_15_top": {"walls", "curves from either wall", "mean curve", "middles at the same height"},
+}
 NEARLY = 1e-9  # of shapes some ten units large
 Floats = NDArray[np.float64]
 Names = dict[str, Any]
@@ -43,7 +47,7 @@ def run(stem: str) -> Names:
     figure.canvas.draw()
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     plt.close(figure)
-    assert {"area", "main curve", "auxiliary curve"} <= set(texts)
+    assert NAMED.get(stem, {"area", "main curve", "auxiliary curve"}) <= set(texts)
     return names
 
 
@@ -66,8 +70,8 @@ def share_of(crossed: Any, curve: Any, rows: NDArray[np.intp]) -> Floats:
     return np.asarray(met / shapely.length(radii))
 
 
-def test_there_is_a_script_for_each_of_the_thirteen_figures() -> None:
-    assert [int(stem.split("_")[1]) for stem in SCRIPTS] == list(range(1, 14))
+def test_there_is_a_script_for_each_of_the_fifteen_figures() -> None:
+    assert [int(stem.split("_")[1]) for stem in SCRIPTS] == list(range(1, 16))
 
 
 @pytest.mark.parametrize("stem", SCRIPTS)
@@ -284,3 +288,52 @@ def test_circles_of_figure_13_touch_both_edges_in_turn() -> None:
     assert main == pytest.approx(auxiliary, abs=NEARLY)
     assert radius[::2] == pytest.approx(main[::2], abs=1e-5)  # the first one touches the cap too
     assert (radius[1::2] < 0.6 * main[1::2]).all()
+
+
+def across(chain: Floats, heights: Floats) -> Floats:
+    """How far across a chain (n, 2) is at heights."""
+    order = np.argsort(chain[:, 1], kind="stable")
+    return np.asarray(np.interp(heights, chain[order, 1], chain[order, 0]), dtype=np.float64)
+
+
+CALM, DISTURBED = np.arange(3.0, 45.0, 0.1), np.arange(52.5, 57.5, 0.1)  # metres up the chimney
+
+
+def test_disturbed_walls_of_figure_14_attract_the_curve() -> None:
+    """In the bottom part deviations are imperceptible; above, it converges to the main curve."""
+    names = figure(14)
+    plane, truth = names["plane"], names["truth"]
+    low, high = (
+        across(plane.from_main, heights) - across(truth, heights) for heights in (CALM, DISTURBED)
+    )
+    apart = across(plane.auxiliary, CALM) - across(plane.main, CALM)
+    assert np.abs(low / apart).max() < 0.005  # a line's width of the figure is one hundredth
+    assert plane.main[:, 0].mean() < 0.0
+    assert high.min() == pytest.approx(-names["chimney"].__globals__["BULGE"][1] / 2.0, abs=0.005)
+
+
+def test_the_curve_of_figure_14_ends_halfway_between_ends_of_the_walls() -> None:
+    """The author chose the second condition: median points between ends of two disjoint curves."""
+    plane = figure(14)["plane"]
+    for k in (0, -1):
+        ends = (plane.main[k] + plane.auxiliary[k]) / 2.0
+        assert np.abs(plane.from_main[[0, -1]] - ends).max(axis=1).min() < 1e-3
+
+
+def test_both_averages_of_figure_15_are_nearer_to_the_axis_than_either_curve() -> None:
+    """Below they are almost the same, at the top not; averages better approximate the axis."""
+    names = figure(15)
+    kinds = ("from_main", "from_auxiliary", "mean_curve", "same_height")
+    most = []
+    for plane, truth in zip(names["planes"], names["truths"], strict=True):
+        off = {k: across(getattr(plane, k), CALM) - across(truth, CALM) for k in kinds}
+        size = {k: np.sqrt(np.mean(v**2)) for k, v in off.items()}
+        for average in ("mean_curve", "same_height"):
+            assert size[average] < 0.8 * min(size["from_main"], size["from_auxiliary"])
+        assert np.abs(off["mean_curve"] - off["same_height"]).max() < 1e-3
+        top = across(plane.from_main, DISTURBED) - across(plane.from_auxiliary, DISTURBED)
+        low = off["from_main"] - off["from_auxiliary"]
+        # Apart from r sin² of the taper, by which either is off towards its wall.
+        most.append(np.std(top) / np.std(low))
+    assert most[0] > 2.0  # direction X, across the bulge
+    assert most[1] < 1.0

@@ -78,6 +78,16 @@ def test_one_side_is_answered_by_the_joint_mode_only(azimuths: tuple[float, ...]
     assert not fan.is_answered.any() or (fan.levels["flag"] != "").all()
 
 
+def test_everything_that_is_wrong_with_a_level_is_said() -> None:
+    """Half a shell with bumps is uncertain, and its radius is the taper's all the same."""
+    tower = Tower(40.0, 2.5, 1.5, lean=0.1, form_error=0.012, form_length=1.0, seed=2)
+    levels = tower_axis(dirty(tower, azimuths=(0.0, 30.0)).points()).levels
+    flags = levels["flag"][np.isfinite(levels["x"])]
+    both = np.char.startswith(flags, "uncertain by") & np.char.endswith(flags, "taper prior")
+    assert both.mean() > 0.5
+    assert (np.char.count(flags, "; ") == 1)[both].all()
+
+
 def test_an_oval_is_recognised_with_its_size_and_direction() -> None:
     scan = dirty(Tower(40.0, 2.5, 1.5, oval=0.01, twist=30.0))
     axis = tower_axis(scan.points())

@@ -25,6 +25,23 @@ def test_axis_of_a_leaning_cone_is_exact(mode: Any, azimuth: float) -> None:
     assert axis.kinks == []
 
 
+@pytest.mark.parametrize("mode", ["fan", "paper"])
+@pytest.mark.parametrize(
+    "scan",
+    [
+        Scan(Tower(60.0, 3.0, 1.6, lean=0.08), count=200_000, seed=1),
+        Scan(Tower(lean=0.16), count=300_000, seed=3),
+    ],
+)
+def test_ends_of_a_leaning_cone_are_exact_or_have_no_answer(mode: Any, scan: Scan) -> None:
+    """Near the top the nearest point of the other wall is its end."""
+    axis = tower_axis(scan.points(), mode)
+    assert axis.is_answered.sum() >= len(axis.levels) - 2
+    assert np.nanmax(offsets(axis, scan)) < EXACT
+    missing = axis.levels["flag"][~axis.is_answered]
+    assert (missing != "").all()
+
+
 def test_radius_of_a_cone_is_exact() -> None:
     axis = tower_axis(CONE.points())
     # The radius is that of the section through the centre, at its arc length along the axis.

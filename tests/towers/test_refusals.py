@@ -1,6 +1,7 @@
 """Clouds that are no tower, or hard to read: one sentence, or an axis."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -32,20 +33,29 @@ def test_points_of_one_height_are_refused(points: Floats) -> None:
         tower_axis(points)
 
 
-def test_a_tower_that_lies_is_refused_or_told_of() -> None:
-    try:
-        axis = tower_axis(CONE.points()[:, [0, 2, 1]])
-    except ParameterError as error:
-        assert "no tower was found" in str(error)  # noqa: PT017
-    else:
-        assert (axis.levels["flag"] != "").all()
+@pytest.mark.parametrize(
+    ("order", "sentence"),
+    [
+        ([0, 2, 1], "no tower was found: circles of 0 of 24 slabs stand one above the other"),
+        ([2, 1, 0], "expected a tower that stands along z; is another coordinate the height?"),
+    ],
+)
+def test_a_tower_that_lies_is_refused(order: list[int], sentence: str) -> None:
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(CONE.points()[:, order])
+    assert sentence in str(caught.value)
+    assert "inf" not in str(caught.value)
 
 
-def test_a_sliver_has_no_infinite_distance() -> None:
-    try:
-        tower_axis(sliver())
-    except ParameterError as error:
-        assert "inf m" not in str(error)  # noqa: PT017
+@pytest.mark.parametrize("mode", ["joint", "fan", "paper"])
+def test_a_sliver_has_no_centre_and_says_how_much_is_seen(mode: Any) -> None:
+    axis = tower_axis(sliver(), mode)
+    assert not axis.is_answered.any()
+    assert set(axis.levels["flag"]) == {"only 30° of the shell seen"}
+    assert axis.line.is_empty
+    assert np.isnan(axis.levels["radius"]).all()
+    # What is not known is not printed as a number.
+    assert not [text for _, text in summary_lines(axis) if "nan" in text]
 
 
 @pytest.mark.parametrize("ending", ["npy", "csv"])

@@ -10,12 +10,15 @@ import pytest
 from midrib import tower_axis
 from midrib.errors import GeometryTypeError
 from midrib.formats.clouds import open_cloud
+from midrib.towers.cells import Cells, Grid, Reference
 from midrib.towers.cloud import ArrayCloud
+from midrib.towers.rough import Frame
 from midrib.towers.simulate import Scan, Tower
-from midrib.towers.stations import Aligned, Station, labels_in
+from midrib.towers.stations import Aligned, Station, labels_in, without_form
 from midrib.types import Floats
 from tests.towers.scans import dirty, offsets
 
+NO_FACES = np.zeros((0, 2))
 TOWER = Tower(40.0, 2.5, 1.5, lean=0.1, lean_azimuth=40.0)
 
 
@@ -36,6 +39,46 @@ def test_shifts_are_found_whatever_the_shape_is(oval: float) -> None:
     assert found == pytest.approx(shifts, abs=8e-4)
     assert axis.shape.name == ("oval" if oval else "round")
     assert np.nanmax(offsets(axis, scan)) < 1e-3
+
+
+@pytest.mark.parametrize(("oval", "twist"), [(0.03, 0.0), (0.06, 80.0)])
+def test_an_oval_has_no_shifts_of_its_own(oval: float, twist: float) -> None:
+    """Points of a cell lie nearer to their station, where the oval is another."""
+    scan = dirty(replace(TOWER, oval=oval, twist=twist))
+    axis = tower_axis(scan.points(), stations=scan.stations)
+    shifts = np.array([(station.x, station.y) for station in axis.stations]).reshape(-1, 2)
+    sigma = max([station.sigma for station in axis.stations], default=0.0)
+    assert np.abs(shifts).max(initial=0.0) < 2.5 * sigma + 1e-12
+    assert sigma < 6e-4
+    assert np.sqrt(np.nanmean(offsets(axis, scan) ** 2)) < 3e-4
+
+
+def test_the_form_of_a_section_is_taken_off_where_it_is_measured() -> None:
+    angle = np.linspace(0.0, 2.0 * np.pi, 500, endpoint=False)
+    parts = []
+    for off in (0.0, 0.03):  # the second station has its points a little farther round
+        azimuth = angle + off
+        form = 0.02 * np.cos(2.0 * azimuth + 0.4) + 0.004 * np.sin(5.0 * azimuth)
+        zeros = np.zeros(angle.size)
+        level = zeros.astype(np.intp)
+        grid = Grid(0.0, 0.5, 1, 500, 1)
+        reference = Reference(Frame(np.zeros(3), np.eye(3)), 0.0, 0.1, np.zeros((2, 5)), NO_FACES)
+        cells = Cells(level, level, zeros, azimuth, form, zeros, zeros, reference, grid)
+        parts.append(cells)
+    for cells in without_form(parts, 1.0):
+        assert np.abs(cells.d).max() < 1e-9
+
+
+def test_stations_that_could_not_be_put_together_are_flagged() -> None:
+    """Two stations of which either sees two faces of its own have nothing in common."""
+    tower = replace(TOWER, faces=4, twist=20.0)
+    scan = dirty(tower, azimuths=(65.0, 245.0))
+    points, labels = scan.points(), scan.stations
+    levels = tower_axis(points, stations=labels).levels
+    told = np.char.find(levels["flag"], "stations not put together") >= 0
+    assert told[np.isfinite(levels["x"])].all()
+    # Who says how well they were registered has it in sigma.
+    assert (tower_axis(points, stations=labels, registration=1e-3).levels["flag"] == "").any()
 
 
 def test_without_stations_shifts_look_like_an_oval() -> None:

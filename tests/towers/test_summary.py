@@ -29,6 +29,21 @@ def test_summary_and_kinks_do_not_depend_on_what_moves_all_levels_together() -> 
     assert plain.levels["sigma_inner"] == pytest.approx(plain.levels["sigma"], rel=1e-12)
 
 
+@pytest.mark.parametrize("bend", [0.0, 0.02])
+def test_a_small_kink_is_found_under_noise_beside_a_bend(bend: float) -> None:
+    """A millimetre a metre, noise of 4 mm: two straight lines would tell it to 0.05 mm/m."""
+    unit = Tower(60.0, 2.5, 1.5, lean=0.1, bend=bend, kink=1.0, kink_spacing=30.0, seed=5)
+    tower = replace(unit, kink=1e-3 / float(np.hypot(*unit.kinks[1][0])))
+    axis = axis_from(tower)
+    (kink,) = axis.kinks
+    assert kink.z == pytest.approx(30.0, abs=1.0)
+    assert kink.turn == pytest.approx(1.0, abs=0.2)
+    assert 0.0 < kink.sigma < 0.1
+    x, y = tower.kinks[1][0]
+    assert kink.azimuth == pytest.approx(np.degrees(np.arctan2(x, y)) % 360.0, abs=10.0)
+    assert axis_from(replace(tower, kink=0.0)).kinks == []
+
+
 @pytest.mark.parametrize("bend", [0.1, 0.3, 0.6])
 def test_a_smooth_bend_has_no_kinks(bend: float) -> None:
     assert axis_from(Tower(height=100.0, bend=bend)).kinks == []

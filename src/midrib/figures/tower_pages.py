@@ -21,14 +21,24 @@ if TYPE_CHECKING:
     from midrib.towers.records import TowerAxis
     from midrib.towers.tolerance import Tolerance
 
-__all__ = ["HEIGHTS", "WIDTH", "Sheet", "draw_axis", "draw_sections", "draw_shell", "sheet_of"]
+__all__ = [
+    "HEIGHTS",
+    "WIDTH",
+    "Sheet",
+    "draw_deviation",
+    "draw_plan",
+    "draw_sections",
+    "draw_shell",
+    "sheet_of",
+]
 
 # Sizes on paper in millimetres.
 WIDTH = 180.0
-AXIS_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT = 195.0, 130.0, 115.0
-SIDE, GUTTER, FOOT, HEAD = 14.0, 16.0, 12.0, 8.0
+DEVIATION_HEIGHT, PLAN_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT = 114.0, 76.0, 130.0, 115.0
+SIDE, GUTTER, FOOT, HEAD = 14.0, 16.0, 12.0, 11.0
+LEGEND_COLUMNS = 4
 N_SECTIONS, SECTION_COLUMNS = 6, 3
-HEIGHTS = AXIS_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT
+HEIGHTS = DEVIATION_HEIGHT, PLAN_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT
 
 
 class Sheet(NamedTuple):
@@ -53,23 +63,30 @@ def sheet_of(width: float, height: float) -> Sheet:
     return Sheet(Figure(figsize=(width / INCH, height / INCH), facecolor="white"))
 
 
-def draw_axis(
+def draw_deviation(
     axis: "TowerAxis", tolerance: "Tolerance | None" = None, sheet: Sheet | None = None
 ) -> "Figure":
-    """Draw deviations in x and y by height, the plan of the axis, radius and what is seen."""
-    sheet = sheet or sheet_of(WIDTH, AXIS_HEIGHT)
-    half = (WIDTH - SIDE - GUTTER - 4.0) / 2.0
-    tall = 0.56 * (AXIS_HEIGHT - HEAD - 2.0 * FOOT)
-    short = AXIS_HEIGHT - HEAD - 2.0 * FOOT - tall - 12.0
-    low = AXIS_HEIGHT - HEAD - tall
-    first = sheet.place(SIDE, low, half, tall)
+    """Draw deviations in x and y by height."""
+    sheet = sheet or sheet_of(WIDTH, DEVIATION_HEIGHT)
+    half, tall = (WIDTH - SIDE - GUTTER - 4.0) / 2.0, DEVIATION_HEIGHT - HEAD - FOOT
+    first = sheet.place(SIDE, FOOT, half, tall)
     plot_deviation(first, axis, "x", tolerance)
-    plot_deviation(sheet.place(SIDE + half + GUTTER, low, half, tall), axis, "y", tolerance)
-    plot_plan(sheet.place(SIDE, FOOT, half, short), axis, tolerance)
-    plot_radius(sheet.place(SIDE + half + GUTTER, FOOT, half, short), axis)
+    plot_deviation(sheet.place(SIDE + half + GUTTER, FOOT, half, tall), axis, "y", tolerance)
     handles, names = first.get_legend_handles_labels()
-    first.legend(handles, names, loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=len(names),
-                 frameon=False, fontsize=FONT, labelcolor=TEXT, borderaxespad=0.0)  # fmt: skip
+    first.legend(handles, names, loc="lower left", bbox_to_anchor=(0.0, 1.0),
+                 ncols=LEGEND_COLUMNS, frameon=False, fontsize=FONT, labelcolor=TEXT,
+                 borderaxespad=0.0)  # fmt: skip
+    return sheet.figure
+
+
+def draw_plan(
+    axis: "TowerAxis", tolerance: "Tolerance | None" = None, sheet: Sheet | None = None
+) -> "Figure":
+    """Draw the plan of the axis, and radius and what is seen by height."""
+    sheet = sheet or sheet_of(WIDTH, PLAN_HEIGHT)
+    half, tall = (WIDTH - SIDE - GUTTER - 4.0) / 2.0, PLAN_HEIGHT - FOOT - 10.0
+    plot_plan(sheet.place(SIDE, FOOT, half, tall), axis, tolerance)
+    plot_radius(sheet.place(SIDE + half + GUTTER, FOOT, half, tall), axis)
     return sheet.figure
 
 

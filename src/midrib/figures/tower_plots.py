@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from midrib.figures.paper import FONT, POINT, TEXT
+from midrib.towers.tolerance import verdicts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -21,6 +22,9 @@ __all__ = ["plot_deviation", "plot_plan", "plot_radius", "plot_section", "plot_s
 AXIS, BAND, FLAG, LIMIT, LINE = "#000000", "#9db8dd", "#d62728", "#c8811a", "#1f5fbf"
 GRID = "#d8dcd2"
 NORMAL = 1.96
+# Dark, middling and light, so that a print without colours tells them apart as well.
+JUDGED = {"beyond": "#a3201d", "undecided": "#f0a63c", "within": "#cfe3c4"}
+STRIP = 0.025  # of a plot's width: the strip of verdicts along its left side
 LABELS = 0.16  # of the plan's extent: as far apart as labels are
 WALL = 0.25  # of the radius on paper: how far the largest residuals of a section reach
 RESIDUAL_SHARE = 98.0  # percent of the residuals that the colours of the unrolled shell tell apart
@@ -62,6 +66,7 @@ def plot_deviation(
         for sign in (-1.0, 1.0):
             axes.plot(sign * allowed, z, color=LIMIT, lw=0.3 / POINT, ls=(0, (4.0, 2.0)),
                       label=f"tolerance {tolerance.text}" if sign > 0 else None)  # fmt: skip
+        plot_verdicts(axes, axis, tolerance)
     if axis.kinks:
         at = [kink.z / axis.unit for kink in axis.kinks]
         axes.plot([1.0] * len(at), at, "<", color=LINE, ms=4.0, mew=0.0, clip_on=False,
@@ -72,6 +77,17 @@ def plot_deviation(
     compass = {"x": "x (east)", "y": "y (north)"}[name]
     times = exaggeration(axes)
     finish(axes, f"deviation in {compass}, mm, {times:.0f} times exaggerated", "height, m")
+
+
+def plot_verdicts(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance") -> None:
+    """Plot along the left side which levels are beyond a tolerance, undecided or within it."""
+    z, found = height_of(axis), verdicts(axis.levels, tolerance, axis.unit)
+    tall = float(np.min(np.diff(z))) if z.size > 1 else 1.0
+    for name, colour in JUDGED.items():
+        rows = found == name
+        if rows.any():
+            axes.barh(z[rows], STRIP, tall, color=colour, edgecolor=colour, lw=0.4, label=name,
+                      transform=axes.get_yaxis_transform())  # fmt: skip
 
 
 def exaggeration(axes: "Axes") -> float:

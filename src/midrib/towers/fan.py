@@ -1,11 +1,14 @@
 """The fan: many planes through the axis, a curve of minimal radii from either wall of each.
 
+c_0(s)    the reference axis
 u_k       direction of plane k
-wall      chain of points (u, s): where the sectors at u_k and opposite are beyond the axis
-m_k(s)    the mean of plane k's two curves at a height: how far the axis is along u_k
-c(s)      the centre: u_k · c = m_k in the sense of robust least squares
+wall      chain of points (u, s): how far the sectors at u_k and opposite are from c_0
+m_k(s)    the mean of plane k's two curves at a height: how far the axis is from c_0 along u_k
+c(s)      the centre: u_k · (c - c_0) = m_k in the sense of robust least squares
 
 The distances are those of cells, so a wall's curvature across the sector is taken out already.
+Walls about a straight axis end alike: near the ends, where the nearest point of a tapered wall is
+the other's end, the errors of the two ways cancel. About a leaning one they would not.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -16,7 +19,7 @@ from shapely import LineString
 from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.strip import Strip
-from midrib.towers.joint import normals_of, tukey
+from midrib.towers.joint import tukey
 from midrib.towers.levels import Centres
 
 if TYPE_CHECKING:
@@ -51,7 +54,8 @@ def fan(shell: "Shell", options: "Options") -> "tuple[Centres, dict[str, Any]]":
             means.append(found)
     steps = {"directions": np.array(directions), "heights": s, "means": np.array(means)}
     u = steps["directions"].reshape(-1, 2)
-    return centres_of(s, u, steps["means"], options.unit), steps
+    centres = centres_of(s, u, steps["means"], options.unit)
+    return centres._replace(xy=centres.xy + cells.reference.at(s)[:, :2]), steps
 
 
 def check_opposite(faces: "Floats") -> None:
@@ -68,29 +72,16 @@ def check_opposite(faces: "Floats") -> None:
 
 
 def depths_of(shell: "Shell") -> "Floats":
-    """Distance (levels, sectors) of the wall from the frame's axis in each sector's middle.
+    """Distance (levels, sectors) of the wall from the reference axis in each sector.
 
-    NaN where there is no cell. Of a polygon's face, the distance is measured along its normal.
+    NaN where there is no cell. Of a polygon's face, the distance is measured along its normal. The
+    cell's own mean height is near its level's middle; the reference shell carries the distance.
     """
-    cells, fit = shell.cells, shell.fit
-    grid = cells.grid
-    depth = np.full((grid.n_levels, grid.n_sectors), np.nan)
-    used = fit.weight > 0.0
-    normal, _ = normals_of(cells)
-    # The cell's own mean height and azimuth are near the middle of its level and sector; the
-    # reference shell carries its distance there.
-    middle = cells.reference.at(grid.middles[cells.level])
-    along = (normal * middle[:, :2]).sum(axis=1) + middle[:, 2] + cells.d
-    if not len(cells.reference.faces):
-        angle = (cells.sector + 0.5) * 2.0 * np.pi / grid.n_sectors
-        toward = np.column_stack([np.cos(angle), np.sin(angle)])
-        across = np.column_stack([-toward[:, 1], toward[:, 0]])
-        offset = (across * middle[:, :2]).sum(axis=1)
-        radius = middle[:, 2] + cells.d
-        along = (toward * middle[:, :2]).sum(axis=1) + np.sqrt(
-            np.maximum(radius**2 - offset**2, 0.0)
-        )
-    depth[cells.level[used], cells.sector[used]] = along[used]
+    cells = shell.cells
+    depth = np.full((cells.grid.n_levels, cells.grid.n_sectors), np.nan)
+    used = shell.fit.weight > 0.0
+    level, sector = cells.level[used], cells.sector[used]
+    depth[level, sector] = cells.reference.at(cells.grid.middles[level])[:, 2] + cells.d[used]
     return depth
 
 
@@ -99,8 +90,11 @@ def plane_of(s: "Floats", near: "Floats", far: "Floats") -> "Floats | None":
     rows = np.isfinite(near) & np.isfinite(far)
     if rows.sum() < LEAST_LEVELS:
         return None
-    right = np.column_stack([near, s])[np.isfinite(near)]
-    left = np.column_stack([-far, s])[np.isfinite(far)]
+    # Walls that do not end at one height would give slanted caps, and ends off the middle.
+    low, high = s[rows][[0, -1]]
+    inside = (s >= low) & (s <= high)
+    right = np.column_stack([near, s])[inside & np.isfinite(near)]
+    left = np.column_stack([-far, s])[inside & np.isfinite(far)]
     mean = mean_curve(left, right)
     if mean is None:
         return None

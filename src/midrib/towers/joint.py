@@ -95,6 +95,8 @@ class Fit:
     weight: "Floats"  # (n,) of the cells, 0 to 1
     residual: "Floats"  # (n,) of the cells
     stiffness: tuple[float, float]
+    bends: "Floats"  # coefficients less those of straight lines
+    variance: float  # long-wave variance of a cell
 
     def values(self, s: "Floats") -> "Floats":
         """x, y, r (n, 3) at heights."""
@@ -200,7 +202,8 @@ def fit_cells(
     if not rough:
         told = product(design, weight, design) / variance + model.penalty(*stiffness)
         covariance = factor_of(told).solve(np.eye(len(told)))
-    return Fit(model, straight + bends, covariance, weight, residual, stiffness)
+    whole = straight + bends
+    return Fit(model, whole, covariance, weight, residual, stiffness, bends, variance)
 
 
 def grazed(cells: "Cells", unit: float) -> "Bools":

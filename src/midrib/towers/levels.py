@@ -89,7 +89,8 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     levels["sigma_inner"] = np.sqrt((sigma**2).sum(axis=1) / 2.0 + floor)
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
-    flags = flags_of(shell, s, seen, levels, why, is_uncertain(levels, sigma, unit))
+    uncertain = is_uncertain(levels, sigma, unit)
+    flags = flags_of(shell, s, seen, levels, why, uncertain, told=options.registration > 0.0)
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
     for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "sigma_inner", "ovality"):
@@ -104,7 +105,7 @@ def joint_centres(shell: "Shell", s: "Floats") -> "tuple[Floats, Floats, Any]":
     return (
         shell.fit.values(s)[:, :2],
         np.sqrt(np.maximum(variance, 0.0)),
-        np.full(s.size, "", "U96"),
+        np.full(s.size, "", LEVELS["flag"]),
     )
 
 
@@ -124,7 +125,8 @@ def heights_of(
     z = step * np.arange(first, last + 1)
     s = np.interp(z, z_axis, s_axis)
     seen = seen_at(shell, s, step, unit)
-    usual = LEAST_SHARE * np.median(seen.own[seen.own > 0.0])
+    some = seen.own > 0.0
+    usual = LEAST_SHARE * np.median(seen.own[some]) if some.any() else np.inf
     inside = np.flatnonzero(seen.own >= usual)
     rows = slice(inside[0], inside[-1] + 1) if inside.size else slice(None)
     return z[rows], s[rows], Seen(*(column[rows] for column in seen))
@@ -149,32 +151,49 @@ def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
 
 
 def flags_of(
-    shell: "Shell", s: "Floats", seen: Seen, levels: Any, why: Any, uncertain: "Bools"
+    shell: "Shell",
+    s: "Floats",
+    seen: Seen,
+    levels: Any,
+    why: Any,
+    uncertain: "Bools",
+    *,
+    told: bool,
 ) -> "np.ndarray[Any, np.dtype[np.str_]]":
-    """Flag of each level, the first reason that holds; empty where all is well."""
+    """Flag of each level: why there is no centre, or everything that is wrong with it.
+
+    ``told`` is whether sigma has what stations may be off by.
+    """
     half = NORMAL * 1e3 / shell.unit * np.maximum(levels["sigma_x"], levels["sigma_y"])
     usual = max(np.nanmedian(levels["residual"]), LEAST_ROUGH * shell.unit)
-    flags = np.full(s.size, "", dtype="U96")
+    flags = np.full(s.size, "", dtype=LEVELS["flag"])
     in_dent = np.zeros(s.size, dtype=np.bool_)
     for low, high in shell.dents:
         in_dent |= (s >= low) & (s < high)
     # A hollow tower's faces may be hidden in part; only of round shells does the arc matter.
     is_round = not len(shell.cells.reference.faces)
+    apart = np.full(s.size, shell.labels > 0 and not shell.stations and not told)
 
     def mark(rows: "Bools", text: Any) -> None:
-        free = rows & (flags == "")
-        flags[free] = text if isinstance(text, str) else np.asarray(text)[free]
+        texts = np.full(s.size, text) if isinstance(text, str) else np.asarray(text)
+        known = np.where(flags == "", "", "; ")
+        added = np.char.add(np.char.add(flags, known), texts)
+        flags[rows] = added[rows]
 
     mark(seen.own == 0.0, NO_DATA)
-    mark(seen.near < ARC, [f"only {arc:.0f}° of the shell seen" for arc in seen.near])
-    mark(why != "", why)
-    mark(np.isnan(levels["x"]), NO_DATA)
-    mark(np.full(s.size, shell.shape.problem != ""), shell.shape.problem)
-    mark(uncertain, [f"uncertain by {h:.1f} mm" for h in half])
-    if is_round:
-        mark(seen.near < SEEN, "radius from taper prior")
-    mark(in_dent, "dented, or partly hidden")
-    mark(levels["residual"] > ROUGH * usual, "rough")
+    mark(
+        (seen.near < ARC) & (flags == ""),
+        [f"only {arc:.0f}° of the shell seen" for arc in seen.near],
+    )
+    mark((why != "") & (flags == ""), why)
+    mark(np.isnan(levels["x"]) & (flags == ""), NO_DATA)
+    answered = flags == ""
+    mark(answered & (shell.shape.problem != ""), shell.shape.problem)
+    mark(answered & uncertain, [f"uncertain by {h:.1f} mm" for h in half])
+    mark(answered & is_round & (seen.near < SEEN), "radius from taper prior")
+    mark(answered & apart, "stations not put together")
+    mark(answered & in_dent, "dented, or partly hidden")
+    mark(answered & (levels["residual"] > ROUGH * usual), "rough")
     return flags
 
 

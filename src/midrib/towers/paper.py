@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from midrib.towers.cells import Reference
     from midrib.towers.pipeline import Options, Shell, Track
-    from midrib.types import Floats
+    from midrib.types import Bools, Floats
 
 __all__ = ["PlaneSteps", "paper", "steps_of_walls"]
 
@@ -48,6 +48,7 @@ class PlaneSteps(NamedTuple):
     from_auxiliary: "Floats"
     mean_curve: "Floats"
     same_height: "Floats"
+    told: tuple[float, float]  # heights between which both ways meet a wall and not its end
 
 
 def paper(shell: "Shell", options: "Options", track: "Track") -> "tuple[Centres, dict[str, Any]]":
@@ -158,7 +159,19 @@ def steps_of_walls(
     except InvalidAreaError:
         return None
     lines = [np.array(curve.line.coords)[:, :2] for curve in curves]
-    return PlaneSteps(direction, points, main, auxiliary, *lines)
+    met = [curve.points[is_inside(curve.on_auxiliary[:, 1], low, high), 1] for curve in curves[:2]]
+    if not all(heights.size for heights in met):
+        return None
+    told = float(max(h.min() for h in met)), float(min(h.max() for h in met))
+    one, other, mean, level = lines
+    return PlaneSteps(direction, points, main, auxiliary, one, other, mean, level, told)
+
+
+def is_inside(v: "Floats", low: float, high: float) -> "Bools":
+    """Which heights are between two, and not an end's but for rounding."""
+    margin = 1e-9 * (high - low)
+    inside: Bools = (v > low + margin) & (v < high - margin)
+    return inside
 
 
 def cut(chain: "Floats", low: float, high: float) -> "Floats":
@@ -174,7 +187,8 @@ def centres_of(planes: list[PlaneSteps], s: "Floats", unit: float) -> Centres:
     for plane in planes:
         order = np.argsort(plane.same_height[:, 1], kind="stable")
         line = plane.same_height[order]
-        mean = np.interp(s, line[:, 1], line[:, 0], left=np.nan, right=np.nan)
+        mean = np.interp(s, line[:, 1], line[:, 0])
+        mean[(s < plane.told[0]) | (s > plane.told[1])] = np.nan
         for wall in (plane.main, plane.auxiliary):
             mean[far_from_vertex(s, wall[:, 1], 2.0 * INTERVAL * unit)] = np.nan
         known.append(mean)

@@ -18,6 +18,7 @@ from midrib.towers.cloud import Cloud, Tally, sample_of
 from midrib.towers.faces import rough_polygon
 from midrib.towers.gate import bands_of, shape_of
 from midrib.towers.joint import Fit, fit_cells
+from midrib.towers.kinks import kinks_of
 from midrib.towers.levels import levels_of
 from midrib.towers.records import Shape, TowerAxis
 from midrib.towers.rough import Rough, Search, rough_round
@@ -152,6 +153,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         stations=shell.stations,
         unusable=shell.unusable,
         labels=shell.labels,
+        kinks=kinks_of(shell.cells, fit, options.unit),
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,

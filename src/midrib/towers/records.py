@@ -8,10 +8,11 @@ import numpy as np
 import shapely
 from shapely import LineString
 
-from midrib.towers.summary import Kink, Summary, kinks_of, summary_of
+from midrib.towers.summary import Summary, summary_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
+    from midrib.towers.kinks import Kink
     from midrib.towers.stations import Station
     from midrib.types import Bools, Floats
 
@@ -19,7 +20,7 @@ __all__ = ["LEVELS", "Shape", "TowerAxis"]
 
 LEVELS = np.dtype(
     [(name, np.float64) for name in ("z", "x", "y", "radius", "sigma", "deviation", "azimuth")]
-    + [("coverage", np.float64), ("n", np.int64), ("flag", "U96")]
+    + [("coverage", np.float64), ("n", np.int64), ("flag", "U160")]
     + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y", "sigma_inner")]
 )
 
@@ -50,9 +51,10 @@ class TowerAxis:
         inscribed circle); ``sigma`` of one coordinate of the centre; ``deviation`` from the
         vertical through the lowest level and its ``azimuth`` in degrees from y (north) clockwise;
         ``coverage``, degrees of the shell that are seen; ``n`` points; ``flag``, empty where all is
-        well; ``ovality``, longest less shortest diameter over the mean one, NaN where unknown;
-        ``residual``, standard deviation of the cells of the level; ``sigma_x``, ``sigma_y``;
-        ``sigma_inner``, ``sigma`` without registration and levelling, which move all levels alike.
+        well, else why there is no centre, or all that is wrong with it; ``ovality``, longest less
+        shortest diameter over the mean one, NaN where unknown; ``residual``, standard deviation of
+        the cells of the level; ``sigma_x``, ``sigma_y``; ``sigma_inner``, ``sigma`` without
+        registration and levelling, which move all levels alike.
         Lengths are in coordinate units. A level without an answer has NaN and a flag.
     mode : str
         "joint", "fan" or "paper".
@@ -73,6 +75,9 @@ class TowerAxis:
         Points that were left out since a coordinate is missing or not finite.
     labels : int
         Stations that the points name; 0 if they name none, one, or too many.
+    kinks : list of Kink
+        Where the axis changes its direction, for certain and suddenly: by the joint fit's cells,
+        whatever the mode.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -88,6 +93,7 @@ class TowerAxis:
     stations: "list[Station]" = field(default_factory=list)
     unusable: int = 0
     labels: int = 0
+    kinks: "list[Kink]" = field(default_factory=list)
 
     @property
     def is_answered(self) -> "Bools":
@@ -114,11 +120,6 @@ class TowerAxis:
     def summary(self) -> Summary:
         """The axis as a whole: best line, straightness, largest deviation."""
         return summary_of(self.levels[self.is_answered], self.unit)
-
-    @cached_property
-    def kinks(self) -> list[Kink]:
-        """Where the axis changes its direction, for certain."""
-        return kinks_of(self.levels[self.is_answered], self.unit)
 
     def __repr__(self) -> str:
         """Show what there is of it."""

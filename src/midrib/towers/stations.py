@@ -4,12 +4,16 @@ o_k       how far station k is off, in the frame's plane: a shift; the mean of a
 n         outward normal of the shell in a cell
 d_k       distance of the cell as station k has it
 
+f(θ)      form of the section, the same for all stations: harmonics of a band of the shell
+
 Two stations that see the same cell see the same bump of the wall, so
 
-    d_k - d_j = n · (o_k - o_j)
+    d_k - f(θ_k) - d_j + f(θ_j) = n · (o_k - o_j)
 
-whatever the shell's form is: an oval moves both alike. Where stations overlap, their shifts are
-told apart from the shape; what all of them are off by together no cloud can tell.
+Points of a cell lie nearer to the side from which they are seen, so their mean azimuths θ_k differ,
+and with them an oval's distances: 1 mm at an oval of 30 mm. With the form taken off, where each
+station has its points does not matter, whatever the section is. What all stations are off by
+together no cloud can tell.
 """
 
 from typing import TYPE_CHECKING, NamedTuple
@@ -34,6 +38,9 @@ USUAL = 0.01  # metres: standard deviation of shifts before any is known
 KNOWN = 0.0005  # metres: shifts that are less certain are not applied
 GRAZING = 0.0003  # metres: what beams that graze the shell may differ by, as simulated scans show
 ROUNDS = 8
+FORM_BAND, FORM_ROUNDS = 5.0, 3  # metres of the shell that have one form; fits, the last weighed
+HIGHEST_ORDER = 8  # of the form, as of the gate's
+FORM_LEFT = 0.01  # of the form's amplitude: what is left of it in shifts, as simulated scans show
 
 
 class Station(NamedTuple):
@@ -105,8 +112,12 @@ def stations_of(
     for chunk in chunks:
         for label, cube in zip(labels, cubes, strict=True):
             cube.add(chunk[chunk[:, 3] == label, :3])
-    design, known, shares = differences([cube.cells() for cube in cubes])
+    seen = [cube.cells() for cube in cubes]
+    parts = without_form(seen, unit)
+    taken = np.concatenate([old.d - new.d for old, new in zip(seen, parts, strict=True)])
+    design, known, shares = differences(parts)
     shifts, sigma = fitted(design, known, len(labels), unit)
+    sigma = np.hypot(sigma, FORM_LEFT * np.sqrt(2.0) * float(np.std(taken)) if taken.size else 0.0)
     if not sigma.max(initial=np.inf if not known.size else 0.0) <= KNOWN * unit:
         return []
     turned = shifts @ reference.frame.turn[:2, :2]
@@ -120,6 +131,33 @@ def coarser(grid: Grid) -> Grid:
     """Grid with larger cells, so that many cubes have room."""
     levels, sectors = -(-grid.n_levels // COARSER), max(24, grid.n_sectors // COARSER)
     return grid._replace(level=COARSER * grid.level, n_levels=levels, n_sectors=sectors)
+
+
+def without_form(parts: list[Cells], unit: float) -> list[Cells]:
+    """Cells of stations with the harmonics of the shell that all of them see taken off."""
+    rise = max(1, round(FORM_BAND * unit / parts[0].grid.level))
+    band = np.concatenate([cells.level // rise for cells in parts])
+    angle = np.concatenate([cells.azimuth for cells in parts])[:, None]
+    turns = angle * np.arange(1, HIGHEST_ORDER + 1)
+    design = np.column_stack([np.ones(len(turns)), np.cos(turns), np.sin(turns)])
+    left = np.concatenate([cells.d for cells in parts])
+    for b in np.unique(band):
+        here = band == b
+        left[here] = residual_of(design[here], left[here], unit)
+    ends = np.cumsum([cells.d.size for cells in parts])[:-1]
+    split = np.split(left, ends)
+    return [cells._replace(d=d) for cells, d in zip(parts, split, strict=True)]
+
+
+def residual_of(design: "Floats", known: "Floats", unit: float) -> "Floats":
+    """Return what harmonics do not explain, by robust least squares; unseen parts have none."""
+    every, weight, residual = np.ones(known.size, dtype=np.bool_), np.ones(known.size), known
+    for _ in range(FORM_ROUNDS):
+        root = np.sqrt(weight)
+        answer = np.linalg.lstsq(root[:, None] * design, root * known, rcond=1e-3)[0]
+        residual = known - design @ answer
+        weight = tukey(residual, every, unit)
+    return residual
 
 
 def differences(parts: list[Cells]) -> "tuple[Floats, Floats, Ints]":

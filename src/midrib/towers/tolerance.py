@@ -1,11 +1,14 @@
 """Tolerances of verticality: how far a level may be from the vertical through the base.
 
+A deviation is known within its 95 % interval. A level is *beyond* the tolerance if the whole
+interval is, *within* it if the whole interval is, and *undecided* in between.
+
 A standard's figure depends on the country, the material and the year; none is built in. What the
 reader of a standard finds there goes in as text.
 """
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,9 +17,11 @@ from midrib.errors import ParameterError
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["Tolerance", "tolerance_from"]
+__all__ = ["VERDICTS", "Tolerance", "tolerance_from", "verdicts"]
 
 TERM = re.compile(r"(?P<length>\d+\.?\d*)\s*(?P<unit>mm|cm|m)|h\s*/\s*(?P<share>\d+\.?\d*)")
+VERDICTS = BEYOND, UNDECIDED, WITHIN = ("beyond", "undecided", "within")
+NORMAL = 1.96  # standard deviations: 95 %
 METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 
 
@@ -57,3 +62,38 @@ def tolerance_from(text: str) -> Tolerance:
         else:
             metres += float(match["length"]) * METRES[match["unit"]]
     return Tolerance(text, metres, share)
+
+
+def verdicts(levels: Any, tolerance: Tolerance, unit: float) -> Any:
+    """Verdict on each level: one of ``VERDICTS``, empty where there is no centre.
+
+    Parameters
+    ----------
+    levels : structured array (n,)
+        Of a ``TowerAxis``.
+    tolerance : Tolerance
+    unit : float
+        Coordinate units in a metre.
+
+    Returns
+    -------
+    ndarray of str, shape (n,)
+
+    Notes
+    -----
+    The interval is 1.96 standard deviations either way: those of the level and of the base level,
+    which the deviation is measured from; registration counts once. The base level is its own
+    vertical, so it is never off. O(n).
+    """
+    found = np.full(len(levels), "", dtype="U9")
+    known = np.flatnonzero(np.isfinite(levels["x"]))
+    if not known.size:
+        return found
+    there, base = levels[known], levels[known[0]]
+    half = NORMAL * np.hypot(there["sigma"], base["sigma_inner"])
+    half[0] = 0.0
+    allowed = tolerance.at(there["z"] - base["z"], unit)
+    is_beyond = there["deviation"] - half > allowed
+    is_within = there["deviation"] + half <= allowed
+    found[known] = np.select([is_beyond, is_within], [BEYOND, WITHIN], UNDECIDED)
+    return found
