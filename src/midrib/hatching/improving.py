@@ -6,8 +6,8 @@ from midrib.hatching.bounds import Laid
 from midrib.hatching.laying import Found, Ground, draw_at
 from midrib.hatching.rule import Rule
 from midrib.kernels.fans import Wanted
-from midrib.kernels.gauging import NORMAL, STEP, Course, allowed_turns
-from midrib.kernels.ladder import TAU, THETA, Strokes, draw_strokes, turn_rungs
+from midrib.kernels.gauging import LEAN, NORMAL, STEP, Course, allowed_turns
+from midrib.kernels.ladder import LONGEST, TAU, THETA, Strokes, draw_strokes, turn_rungs
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
 
@@ -52,7 +52,7 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
-    """How far neighbours may turn at each rung, and the normal of the top, in radians.
+    """How far neighbours may turn at each rung, and how far strokes may lean from what, in radians.
 
     Only from some stations to others; elsewhere it is infinite and NaN.
     """
@@ -65,11 +65,12 @@ def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[F
     near |= np.roll(near, 1) | np.roll(near, -1)
     strokes = draw_strokes(ladder, tau[near], ground.spacing)
     station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
-    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked)
-    line, widths = Course(*curves.middle), np.ascontiguousarray(chord[:, 6])
-    allowed, upright = np.full(tau.size, np.inf), np.full(tau.size, np.nan)
+    local = strokes.pivot[:, 6]
+    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
+    line, widths = Course(*curves.middle), np.minimum(chord[:, 6], LONGEST * local)
+    allowed, upright = np.full(tau.size, np.inf), np.full((tau.size, 2), np.nan)
     allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
-    upright[near] = laid.gauged[:, NORMAL]
+    upright[near] = laid.gauged[:, [NORMAL, LEAN]]
     return allowed, upright
 
 

@@ -45,7 +45,9 @@ class Found(NamedTuple):
         chord = self.strokes.chord[self.kept]
         station = self.strokes.pivot[self.kept, 0]
         curves = self.ground.curves
-        return Laid(curves, station, chord[:, :2], chord[:, 2:6], rule.gaps(chord[:, 6]))
+        local = self.strokes.pivot[self.kept, 6]
+        asked = rule.gaps(chord[:, 6], local)
+        return Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
 
     def trouble(self, laid: Laid) -> Bools:
         """Which strokes are left out or beyond a bound, or not a gap from a neighbour.
@@ -125,7 +127,7 @@ def draw_at(
 def calmest(strokes: Strokes, periods: Floats) -> int:
     """Row in the middle of the longest run of strokes that advance on both edges as they should."""
     ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods[:2]
-    shares = ahead / strokes.pivot[:, 5:]
+    shares = ahead / strokes.pivot[:, 5:6]
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
     is_calm &= (shares > LEAST_FOOT).all(axis=1) & (shares < MOST_FOOT).all(axis=1)
     n = is_calm.size

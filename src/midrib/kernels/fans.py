@@ -27,6 +27,7 @@ TURN_COST, TURN_ROOM = 200.0, 0.9  # for each squared radian beyond so much of w
 TURN_WALL, TURN_NEARLY = 20_000.0, 0.985
 FOOT_COST, FOOT_NEAR, FOOT_FAR = 60.0, 0.45, 1.5  # for each squared gap beyond these
 FOOT_WALL, FOOT_NEAREST, FOOT_FARTHEST = 2000.0, 0.28, 1.7
+LEAP, LEAP_COST = 0.5, 200.0  # gaps beyond that; then of the cubed logarithm
 AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
 END_ROOM = 0.35  # of l there; more costs much
 TIED = 1.0 - 2.0**-30  # a way that is cheaper by less is as cheap, whatever rounding says
@@ -101,10 +102,22 @@ def cost_of_step(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted, mos
         if foot <= 0.0:
             return np.inf
         foot /= plain
-        over = max(FOOT_NEAR - foot, foot - FOOT_FAR, 0.0)
-        beyond = max(FOOT_NEAREST - foot, foot - FOOT_FARTHEST, 0.0)
-        cost += FOOT_COST * over * over + FOOT_WALL * beyond * beyond
+        cost += cost_of_foot(foot)
     return cost
+
+
+@njit(borrows=True)
+def cost_of_foot(foot: float) -> float:
+    """Cost of ends that are so many gaps apart on an edge.
+
+    Where an edge leaps, as at the walls of a bay that is deeper than wide, some ends have to be far
+    apart. Then the cost grows slowly: the strokes around need not lean for it. Yet a leap costs
+    more than two of half the way, so that a stroke in the bay is worth it.
+    """
+    over = min(max(FOOT_NEAR - foot, foot - FOOT_FAR, 0.0), LEAP)
+    beyond = min(max(FOOT_NEAREST - foot, foot - FOOT_FARTHEST, 0.0), LEAP)
+    leap = np.log(max(foot / (FOOT_FARTHEST + LEAP), 1.0))
+    return FOOT_COST * over * over + FOOT_WALL * beyond * beyond + LEAP_COST * leap**3
 
 
 @njit(entry=True)
