@@ -20,7 +20,7 @@ from midrib.kernels.gauging import (
     Course,
     gauge,
 )
-from midrib.kernels.ladder import LONGEST
+from midrib.kernels.ladder import MOST_LOCAL
 from midrib.types import Bools, Floats
 
 __all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends", "most_at_ends"]
@@ -84,7 +84,7 @@ class Laid:
         """All numbers about them; see ``midrib.kernels.gauging``."""
         line, top, toe = (Course(*curve) for curve in self.curves)
         widths = np.hypot(*(self.ends[:, 2:] - self.ends[:, :2]).T)
-        local = np.minimum(widths, LONGEST * self.local)
+        local = np.minimum(widths, MOST_LOCAL * self.local)
         station, feet, ends, asked = (
             np.ascontiguousarray(a) for a in (self.station, self.feet, self.ends, self.asked)
         )
@@ -120,6 +120,26 @@ class Laid:
         away = np.array([self.station[first], self.curves.middle.length - self.station[last]])
         gaps: Floats = away / self.asked[[first, last]]
         return gaps
+
+    @property
+    def bare_ends(self) -> Floats:
+        """(2, 2) distances along top and toe from their ends to the next foot, in gaps."""
+        if not self.station.size:
+            return np.full((2, 2), np.inf)
+        first, last = int(np.argmin(self.station)), int(np.argmax(self.station))
+        lengths = np.array([self.curves.top.length, self.curves.toe.length])
+        away = np.array([self.feet[first], lengths - self.feet[last]])
+        gaps: Floats = away / self.asked[[first, last], None]
+        return gaps
+
+    def longest_step(self, some: Bools) -> float:
+        """Longest way along an edge without a foot of chosen strokes, its ends of an open one."""
+        feet, longest = np.sort(self.feet[some], axis=0), 0.0
+        for at, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
+            if not edge.is_closed:
+                at = np.concatenate([[0.0], at, [edge.length]])
+            longest = max(longest, float(np.diff(at).max(initial=0.0)) / edge.length)
+        return longest
 
     @cached_property
     def beyond(self) -> Floats:

@@ -4,15 +4,19 @@ import numpy as np
 
 from midrib.hatching.bounds import Laid
 from midrib.hatching.laying import Found, Ground, draw_at
+from midrib.hatching.mirror import is_own_mirror
 from midrib.hatching.rule import Rule
 from midrib.kernels.fans import Wanted
 from midrib.kernels.gauging import LEAN, NORMAL, STEP, Course, allowed_turns
-from midrib.kernels.ladder import LONGEST, TAU, THETA, Strokes, draw_strokes, turn_rungs
+from midrib.kernels.ladder import MOST_LOCAL, TAU, THETA, Strokes, draw_strokes, draw_turned, turn_rungs
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
 
 __all__ = ["improved"]
 
+AXIS_ROOMS = (0.0, 0.25, 0.5, 0.75)  # gaps on either side of an axis that half the strokes leave
+WORSE = (1.1, 0.3)  # how much farther beyond bounds strokes may be for being their own mirror image
+LONGER = 1.05  # how much longer than before a step along an edge may be if there are fewer strokes
 BESIDE = 6  # calm strokes on either side of trouble that are placed anew too
 Chosen = tuple[int, int, Floats]  # first and last stroke of a stretch, which stay; and new ones
 
@@ -46,9 +50,71 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     now, better = other.laid(rule), []
     for part in chosen:
         between = span(found, *part[:2])
-        if other.badness(now, between, offset) < found.badness(laid, between, offset):
+        if is_better(other, now, found, laid, between, offset):
             better.append(part)
-    return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
+    best = other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
+    return mirrored(found, best, rule, wanted_of(found, steps, offset, stiffness), stiffness)
+
+
+def mirrored(found: Found, best: Found, rule: Rule, wanted: Wanted, stiffness: float) -> Found:
+    """Strokes of a slope that is its own mirror image, so that they are theirs, if not much worse.
+
+    Tried are either half of the best ones with its image, with a stroke on the axis and without,
+    and the cheapest sequence from an end to a stroke on the axis.
+    """
+    ground = found.ground
+    middle, whole = ground.middle, (0.0, ground.middle.length)
+    if middle.is_closed or not is_own_mirror(ground.curves.top, ground.curves.toe):
+        return best
+    ladder, axis = ground.ladder, np.array([middle.length / 2.0])
+    station = best.strokes.pivot[best.kept, 0]
+    turn = (best.strokes.pivot[:, 4] - best.strokes.pivot[:, 3])[best.kept]
+    on_axis = draw_turned(ladder, axis, np.zeros(1), ground.spacing)
+    gap = float(on_axis.pivot[0, 5])
+    allowed, upright = bounds_at_rungs(ground, [whole])
+    half = choose_places(
+        ladder, on_axis, ground.spacing, -1, 0, wanted, middle.periods, allowed, upright
+    )
+    halves = [(half, True)] if len(half) else []
+    for at, by in ((station, turn), (middle.length - station[::-1], -turn[::-1])):
+        for room in AXIS_ROOMS:
+            rows = np.column_stack([at, by])[at < axis - room * gap]
+            halves += [(rows, False), (rows, True)]
+    candidates = [
+        with_chosen(found, [(-1, -1, with_image(rows, middle.length, has_axis))], stiffness)
+        for rows, has_axis in halves
+        if len(rows) or has_axis
+    ]
+    chosen = min(candidates, key=lambda one: one.badness(one.laid(rule), whole, wanted.offset))
+    now = chosen.badness(chosen.laid(rule), whole, wanted.offset)
+    before = best.badness(best.laid(rule), whole, wanted.offset)
+    is_good = now[0] <= before[0] and now[1] <= WORSE[0] * before[1] + WORSE[1]
+    return chosen if is_good else best
+
+
+def with_image(rows: Floats, length: float, has_axis: bool) -> Floats:
+    """Stations and turns of half the strokes, of one on the axis perhaps, and of the other half."""
+    axis = np.array([[length / 2.0, 0.0]])[: int(has_axis)]
+    image = np.column_stack([length - rows[::-1, 0], -rows[::-1, 1]])
+    return np.concatenate([rows, axis, image])
+
+
+def wanted_of(found: Found, steps: Floats, offset: float, stiffness: float) -> Wanted:
+    """What is asked for on a whole open slope."""
+    stretch = float(np.median(steps)) if steps.size > 1 else 1.0
+    return Wanted(offset, stretch, stiffness, 1, 0)
+
+
+def is_better(
+    other: Found, now: Laid, found: Found, laid: Laid, between: tuple[float, float], offset: float
+) -> bool:
+    """Whether other strokes are less bad, and not fewer that leave an edge bare for longer."""
+    if not other.badness(now, between, offset) < found.badness(laid, between, offset):
+        return False
+    some, before = other.inside(now.station, between), found.inside(laid.station, between)
+    is_fewer = np.count_nonzero(some) < np.count_nonzero(before)
+    longest = LONGER * laid.longest_step(before)
+    return not (is_fewer and now.longest_step(some) > longest)
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
@@ -67,7 +133,7 @@ def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[F
     station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
     local = strokes.pivot[:, 6]
     laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
-    line, widths = Course(*curves.middle), np.minimum(chord[:, 6], LONGEST * local)
+    line, widths = Course(*curves.middle), np.minimum(chord[:, 6], MOST_LOCAL * local)
     allowed, upright = np.full(tau.size, np.inf), np.full((tau.size, 2), np.nan)
     allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
     upright[near] = laid.gauged[:, [NORMAL, LEAN]]

@@ -8,7 +8,7 @@ from midrib.hatching.bounds import Curves, Laid, most_at_ends
 from midrib.hatching.middle import Middle
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.gauging import NORMAL, STEP
+from midrib.kernels.gauging import NORMAL, STEP, TOE, TOP
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_turned
 from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
 from midrib.types import Bools, Floats
@@ -16,6 +16,7 @@ from midrib.types import Bools, Floats
 __all__ = ["Found", "Ground", "draw_at"]
 
 UNEVEN = 0.1  # logarithm of a gap over the others' ratio to the rule: from there on it is trouble
+FAR_END = 2.0  # bounds of gaps at ends: ends of edges that are so far from strokes are bare
 WITHIN = 1e-9  # relative, for rounding
 
 
@@ -66,6 +67,13 @@ class Found(NamedTuple):
             found[rows[(pairs + 1) % rows.size]] = True
         return found
 
+    def inside(self, stations: Floats, between: tuple[float, float]) -> Bools:
+        """Which stations lie from one to another, on a closed slope past its start."""
+        period, (low, high) = self.ground.middle.periods[2], between
+        ahead = (stations - low) % period if period > 0.0 else stations - low
+        within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
+        return within
+
     def badness(
         self, laid: Laid, between: tuple[float, float], offset: float
     ) -> tuple[int, float, float]:
@@ -74,22 +82,19 @@ class Found(NamedTuple):
         How many are left out, how far the others are beyond bounds, and how uneven they are: the
         logarithm of the largest gap over the smallest.
         """
-        period = self.ground.middle.periods[2]
-        low, high = between
-
-        def inside(stations: Floats) -> Bools:
-            ahead = (stations - low) % period if period > 0.0 else stations - low
-            within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
-            return within
-
-        missing = int(np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0])))
-        some = inside(laid.station)
+        period, (low, high) = self.ground.middle.periods[2], between
+        missing = int(np.count_nonzero(self.inside(self.strokes.pivot[~self.kept, 0], between)))
+        some = self.inside(laid.station, between)
         steps = laid.between(STEP)
         pairs = (some & np.roll(some, -1))[: steps.size]
-        beyond = laid.beyond[: steps.size, :NORMAL][pairs].sum() + laid.beyond[some, NORMAL].sum()
+        off = laid.beyond[: steps.size][pairs]
+        beyond = off[:, :NORMAL].sum() + laid.beyond[some, NORMAL].sum()
+        beyond += (off[:, [TOP, TOE]] ** 3).sum()  # a leap of an edge is worse than two of half of it
         if period == 0.0:
             reached = np.array([low <= 0.0, high >= self.ground.middle.length])
-            beyond += np.log(np.maximum(laid.end_gaps / most_at_ends(offset), 1.0))[reached].sum()
+            most = most_at_ends(offset)
+            beyond += np.log(np.maximum(laid.end_gaps / most, 1.0))[reached].sum()
+            beyond += np.log(np.maximum(laid.bare_ends / (FAR_END * most), 1.0))[reached].sum()
         ratio = steps[pairs].max() / steps[pairs].min() if pairs.any() else 1.0
         return missing, round(float(beyond), 4), round(float(np.log(ratio)), 4)
 

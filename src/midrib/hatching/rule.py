@@ -10,7 +10,7 @@ from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
 from midrib.hatching.keys import STROKED
 from midrib.hatching.standards import standard as standard_named
-from midrib.kernels.ladder import LONGEST
+from midrib.kernels.ladder import MOST_LOCAL
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -58,7 +58,7 @@ class Rule:
         A stroke down a bay is longer than the slope is wide there: it counts for 1.5 local widths.
         """
         if local is not None:
-            width = np.minimum(width, LONGEST * local)
+            width = np.minimum(width, MOST_LOCAL * local)
         gaps: Floats = np.clip((self.factor or 0.0) * width, self.least_gap, self.largest_gap)
         return gaps
 

@@ -50,7 +50,7 @@ WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
 MOST_COPIES = 64
 TAU, X, Y, NORMAL, THETA, WIDTH, GAP, LOCAL = range(8)
-LONGEST = 1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
+MOST_LOCAL = 1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
 
 
 class Spacing(NamedTuple):
@@ -89,7 +89,7 @@ def gap_at(rule: Spacing, width: float) -> float:
 @njit(borrows=True)
 def effective(width: float, local: float) -> float:
     """Length of a stroke as the rule takes it: of the local width so many times at most."""
-    return min(width, LONGEST * local)
+    return min(width, MOST_LOCAL * local)
 
 
 @njit(borrows=True)

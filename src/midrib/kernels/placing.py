@@ -26,8 +26,9 @@ COARSE = 2  # rungs from one place to the next
 FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
 LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as much, relative
 NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
+FINE, GRAZE, LEAP_OF_FOOT = np.pi / 90.0, 20.0, 0.5  # steps from which on grazes cost; gaps
 FINER, LEVELS = (-1.0, 0.0, 1.0), 4  # places then, in steps that are halved as well
-TILT_WALL, TILT_ROOM = 400.0, 0.01  # for each squared radian beyond the bound, but for so much
+TILT_WALL, TILT_ROOM = 20_000.0, 0.01  # for each squared radian beyond the bound, but for so much
 
 
 @njit(borrows=True)
@@ -43,6 +44,35 @@ def station_at(rungs: Floats, place: float, periods: Floats) -> tuple[int, float
         return lap, 0.0, rungs[lap, TAU] if place == lap else np.inf
     step = rungs[k + 1, TAU] - rungs[k, TAU]
     return k, share, rungs[k, TAU] + share * step + laps * periods[2]
+
+
+@njit()
+def ends_of(ladder: Ladder) -> Floats:
+    """Stations of both ends on top, toe and middle line: where the chords next to them end."""
+    rungs, lap = ladder.rungs, ladder.rungs.shape[0] - 1
+    found = np.full((2, 3), np.nan)
+    for row, k in enumerate((1, lap - 1)):
+        chord = shoot(ladder.ground, ladder.at[k, 0], rungs[k, X], rungs[k, Y], rungs[k, THETA])
+        found[row, 2] = rungs[row * lap, TAU]
+        if chord.top_on == ON_TOP and chord.toe_on == ON_TOE:
+            found[row, 0], found[row, 1] = chord.s, chord.t
+    return found
+
+
+@njit(borrows=True)
+def add_grazes(fans: Fans, step: float) -> None:
+    """Let chords cost more beside which others end elsewhere: rounding may send them there."""
+    n, m = fans.turn.shape
+    for i in range(n):
+        for c in range(m - 1):
+            if fans.cost[i, c] == np.inf or fans.cost[i, c + 1] == np.inf:
+                continue
+            wide = max(fans.width[i, c], fans.width[i, c + 1])
+            near = LEAP_OF_FOOT * min(fans.gap[i, c], fans.gap[i, c + 1]) + 2.0 * step * wide
+            for edge in range(2):
+                if abs(fans.feet[i, c + 1, edge] - fans.feet[i, c, edge]) > near:
+                    fans.cost[i, c] += GRAZE
+                    fans.cost[i, c + 1] += GRAZE
 
 
 @njit()
@@ -102,7 +132,10 @@ def open_fans(
             over = off - upright[k, 1] + TILT_ROOM
             if over > 0.0:  # not where there is no bound, which is NaN
                 cost[i, c] += TILT_WALL * over * over
-    return Fans(tau, calm, most, turn, feet, width, gap, cost)
+    fans = Fans(tau, calm, most, turn, feet, width, gap, cost)
+    if step < FINE:
+        add_grazes(fans, step)
+    return fans
 
 
 @njit(entry=True)
@@ -154,18 +187,19 @@ def choose_places(
     found = np.zeros((before + n + after, 2))
     for i in range(n):
         found[before + i, 0] = k + COARSE * i
+    ends = ends_of(ladder)
     # 2. Places and directions; then finer ones around these.
     half, step, apart = FAN, STEP, COARSE / 2.0
     for level in range(LEVELS + 1):
         fans = open_fans(
             ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
         )
-        most, total = np.inf, rungs[lap, TAU]
+        most = np.inf
         if level == 0:
             some = middle_of_fans(fans, LIKELY)
-            way, most = cheapest_way(some, (before, after), wanted, total, periods, most)
+            way, most = cheapest_way(some, (before, after), wanted, ends, periods, most)
             most *= 1.0 + EQUAL
-        way, _ = cheapest_way(fans, (before, after), wanted, total, periods, most)
+        way, _ = cheapest_way(fans, (before, after), wanted, ends, periods, most)
         k = way.shape[0] - before - after
         if k < 1:
             return np.empty((0, 2))
