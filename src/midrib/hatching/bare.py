@@ -18,10 +18,10 @@ from midrib.types import Bools, Floats
 __all__ = ["Bare", "bare_stretches"]
 
 FAR = 1.75  # gaps along the edge from the next stroke: more than at any corner, and than at ends
-AT_END = 1.25  # gaps from the end of an edge to the first stroke: beyond that it is looked at
+AT_END = 0.75  # gaps from the end of an edge to the first stroke: beyond that it is looked at
 STEPS_PER_GAP = 4.0
 MOST_STEPS = 100_000
-ROUNDING = 1e-9  # of the length of the top: what is as near to its end is at it
+SIDE = 0.5  # cotangent of the angle at an end of an edge from which on the other one is a side
 
 
 class Bare(NamedTuple):
@@ -49,8 +49,8 @@ def bare_stretches(
     -------
     list of Bare
         O(n log n) where no stretch may be bare, and O(m k) for m places on those that may be and an
-        edge of k vertices. Where the nearest point of the top is its end, the toe is a side, or
-        runs on past the top: no stroke belongs there.
+        edge of k vertices. Where the nearest point of the other edge is next to its end, one of
+        both is a side of the slope, or runs on past the other: no stroke belongs there.
     """
     if not len(feet):
         return []
@@ -70,9 +70,9 @@ def bare_stretches(
                 np.where(high in at or edge.is_closed, high - places, np.inf),
             )
             is_bare = (away > FAR * asked) & (width >= least)
-            if name == "toe" and not edge.is_closed:
-                on_top = shapely.line_locate_point(facing, points) / facing.length
-                is_bare &= (on_top > ROUNDING) & (on_top < 1.0 - ROUNDING)
+            if not edge.is_closed:
+                on = shapely.line_locate_point(facing, points)
+                is_bare &= np.minimum(on, facing.length - on) > SIDE * width
             for first, last in runs(is_bare):
                 found.append(Bare(points[(first + last) // 2], (last - first + 1) * apart, name))
     return found

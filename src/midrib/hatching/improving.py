@@ -85,6 +85,16 @@ def mirrored(found: Found, best: Found, rule: Rule, wanted: Wanted, stiffness: f
         for rows, has_axis in halves
         if len(rows) or has_axis
     ]
+    laid, every = best.laid(rule), np.ones(station.size, dtype=np.bool_)
+    candidates = [
+        one
+        for one in candidates
+        if not is_barer(
+            one.laid(rule), laid, np.ones(np.count_nonzero(one.kept), dtype=np.bool_), every
+        )
+    ]
+    if not candidates:
+        return best
     chosen = min(candidates, key=lambda one: one.badness(one.laid(rule), whole, wanted.offset))
     now = chosen.badness(chosen.laid(rule), whole, wanted.offset)
     before = best.badness(best.laid(rule), whole, wanted.offset)
@@ -111,10 +121,13 @@ def is_better(
     """Whether other strokes are less bad, and not fewer that leave an edge bare for longer."""
     if not other.badness(now, between, offset) < found.badness(laid, between, offset):
         return False
-    some, before = other.inside(now.station, between), found.inside(laid.station, between)
-    is_fewer = np.count_nonzero(some) < np.count_nonzero(before)
-    longest = LONGER * laid.longest_step(before)
-    return not (is_fewer and now.longest_step(some) > longest)
+    return not is_barer(now, laid, other.inside(now.station, between), found.inside(laid.station, between))
+
+
+def is_barer(now: Laid, laid: Laid, some: Bools, before: Bools) -> bool:
+    """Whether there are fewer strokes than before and an edge is without one for longer."""
+    is_fewer = bool(np.count_nonzero(some) < np.count_nonzero(before))
+    return is_fewer and now.longest_step(some) > LONGER * laid.longest_step(before)
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:

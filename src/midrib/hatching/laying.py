@@ -17,6 +17,7 @@ __all__ = ["Found", "Ground", "draw_at"]
 
 UNEVEN = 0.1  # logarithm of a gap over the others' ratio to the rule: from there on it is trouble
 FAR_END = 2.0  # bounds of gaps at ends: ends of edges that are so far from strokes are bare
+SPACED, LEAP = 3.0, 0.3  # gaps on the middle line count more; two leaps less than one twice as far
 WITHIN = 1e-9  # relative, for rounding
 
 
@@ -89,7 +90,7 @@ class Found(NamedTuple):
         pairs = (some & np.roll(some, -1))[: steps.size]
         off = laid.beyond[: steps.size][pairs]
         beyond = off[:, :NORMAL].sum() + laid.beyond[some, NORMAL].sum()
-        beyond += (off[:, [TOP, TOE]] ** 3).sum()  # a leap of an edge is worse than two of half of it
+        beyond += SPACED * off[:, STEP].sum() + LEAP * (off[:, [TOP, TOE]] ** 3).sum()
         if period == 0.0:
             reached = np.array([low <= 0.0, high >= self.ground.middle.length])
             most = most_at_ends(offset)
