@@ -2,7 +2,8 @@
 
 It shares nothing with the engine: no middle line, no stations, no gaps of strokes. At places along
 an edge the local width is the distance to the other edge, and the gap is what the rule asks for
-there. The way along the edge to the nearest stroke's end, in such gaps, tells how bare it is.
+there. The way along the edge to the nearest stroke's end, in such gaps, tells how bare it is. Where the nearest point of the other edge
+is next to its end, one of both is a side of the slope, if it is short: no stroke belongs there.
 
 edge   --x-----x----o    o    o----x-----     x  ends of strokes
                     |<- bare ->|              o  places farther than ``FAR`` gaps from all of them
@@ -24,6 +25,8 @@ FAR = 1.75  # gaps along an edge from a place to the next stroke: twice what bou
 STEPS = 4.0  # places for each least gap
 MOST_PLACES = 20_000
 LEAST_WIDTH = 0.5  # least gaps: where slopes are narrower there is hardly room for a stroke
+SIDE = 0.5  # of the width: if the nearest place of the other edge is as near to its end
+LONGEST_SIDE = 2.0  # mean widths
 NEAR = 1.0  # local gaps between a bare run and a problem that explains it
 
 
@@ -57,9 +60,11 @@ def bare_runs(hatching: Hatching) -> list[BareRun]:
         feet = np.sort(shapely.line_locate_point(edge, shapely.points(ends)))
         away = ways_to(feet, at, edge.length, strip.is_closed)
         is_bare = (away > FAR * gap) & (width >= LEAST_WIDTH * rule.least_gap)
-        if name == "toe" and not strip.is_closed:
-            on_top = shapely.line_locate_point(other, places)
-            is_bare &= (on_top > 0.0) & (on_top < other.length)
+        if not strip.is_closed:
+            on = shapely.line_locate_point(other, places)
+            is_side = np.minimum(on, other.length - on) <= SIDE * width
+            longest = 2.0 * LONGEST_SIDE * strip.area.area / (edge.length + other.length)
+            is_bare &= ~is_side | (np.minimum(at, edge.length - at) > longest)
         turn = np.flatnonzero(np.diff(np.concatenate([[0], is_bare, [0]])))
         for low, high in turn.reshape(-1, 2).tolist():
             worst = low + int(np.argmax((away / gap)[low:high]))

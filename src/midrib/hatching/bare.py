@@ -33,7 +33,7 @@ class Bare(NamedTuple):
 
 
 def bare_stretches(
-    edges: tuple[Chain, Chain], rule: Rule, feet: Floats, gap: Floats, least: float
+    edges: tuple[Chain, Chain], rule: Rule, feet: Floats, gap: Floats, least: float, side: float
 ) -> list[Bare]:
     """Stretches of both edges that are far from every whole stroke.
 
@@ -44,6 +44,7 @@ def bare_stretches(
     feet : (n, 2) stations of strokes on top and toe
     gap : (n,) that the rule asks for at each
     least : length of the shortest whole stroke: where the slope is not as wide, it has no room
+    side : how long a side of the slope may be
 
     Returns
     -------
@@ -72,7 +73,8 @@ def bare_stretches(
             is_bare = (away > FAR * asked) & (width >= least)
             if not edge.is_closed:
                 on = shapely.line_locate_point(facing, points)
-                is_bare &= np.minimum(on, facing.length - on) > SIDE * width
+                is_side = np.minimum(on, facing.length - on) <= SIDE * width
+                is_bare &= ~is_side | (np.minimum(places, edge.length - places) > side)
             for first, last in runs(is_bare):
                 found.append(Bare(points[(first + last) // 2], (last - first + 1) * apart, name))
     return found

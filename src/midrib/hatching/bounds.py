@@ -132,9 +132,10 @@ class Laid:
         gaps: Floats = away / self.asked[[first, last], None]
         return gaps
 
-    def longest_step(self, some: Bools) -> float:
-        """Longest way along an edge without a foot of chosen strokes, its ends of an open one."""
-        feet, longest = np.sort(self.feet[some], axis=0), 0.0
+    @property
+    def longest_step(self) -> float:
+        """Longest way along an edge without a foot, of open ones to the ends too, over its length."""
+        feet, longest = np.sort(self.feet, axis=0), 0.0
         for at, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
             if not edge.is_closed:
                 at = np.concatenate([[0.0], at, [edge.length]])

@@ -10,6 +10,7 @@ from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.bare import bare_stretches
 from midrib.hatching.bounds import Curves, Laid, excesses, far_ends
 from midrib.hatching.matching import Drawn
+from midrib.hatching.middle import LONGEST_SIDE
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
@@ -82,7 +83,8 @@ def finish(
     share = np.where(is_long, 1.0, short)
     if curves is not None:
         shorten(drawn, kept & is_long, gap, share, strip.is_closed, problems)
-        for bare in bare_stretches((curves.top, curves.toe), rule, drawn.feet[kept], gap[kept], least):
+        edges, side = (curves.top, curves.toe), LONGEST_SIDE * float(np.mean(drawn.local))
+        for bare in bare_stretches(edges, rule, drawn.feet[kept], gap[kept], least, side):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
             problems.append(Problem(bare.where, reason))
     meet_islands(drawn, kept, is_long, share, LEAST_FOOT * gap, least, strip, problems)

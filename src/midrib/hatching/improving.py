@@ -53,53 +53,63 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
         if is_better(other, now, found, laid, between, offset):
             better.append(part)
     best = other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
-    return mirrored(found, best, rule, wanted_of(found, steps, offset, stiffness), stiffness)
+    if ground.middle.is_closed:
+        return best
+    wanted = Wanted(offset, stretch, stiffness, 1, 0)
+    return mirrored(found, best, chosen, rule, wanted, stiffness)
 
 
-def mirrored(found: Found, best: Found, rule: Rule, wanted: Wanted, stiffness: float) -> Found:
+def mirrored(
+    found: Found, best: Found, parts: list[Chosen], rule: Rule, wanted: Wanted, stiffness: float
+) -> Found:
     """Strokes of a slope that is its own mirror image, so that they are theirs, if not much worse.
 
     Tried are either half of the best ones with its image, with a stroke on the axis and without,
     and the cheapest sequence from an end to a stroke on the axis.
     """
-    ground = found.ground
-    middle, whole = ground.middle, (0.0, ground.middle.length)
-    if middle.is_closed or not is_own_mirror(ground.curves.top, ground.curves.toe):
+    ground, laid = found.ground, best.laid(rule)
+    ladder, length, periods = ground.ladder, ground.middle.length, ground.middle.periods
+    spans = [(part, span(found, *part[:2])) for part in parts]
+    inner = [part[:2] for part, (low, high) in spans if low < length / 2.0 < high]
+    if not inner or not is_own_mirror(ground.curves.top, ground.curves.toe):
         return best
-    ladder, axis = ground.ladder, np.array([middle.length / 2.0])
-    station = best.strokes.pivot[best.kept, 0]
-    turn = (best.strokes.pivot[:, 4] - best.strokes.pivot[:, 3])[best.kept]
-    on_axis = draw_turned(ladder, axis, np.zeros(1), ground.spacing)
-    gap = float(on_axis.pivot[0, 5])
-    allowed, upright = bounds_at_rungs(ground, [whole])
+    first, last = with_its_image(*inner[0], found.kept.size)
+    low, high = span(found, first, last)
+    others = [part for part, (a, b) in spans if not (a < high and low < b)]
+    rows = best.strokes.pivot[best.kept]
+    rows = np.column_stack([rows[:, 0], rows[:, 4] - rows[:, 3]])
+    rows = rows[(rows[:, 0] > low) & (rows[:, 0] < high)]
+    axis = draw_turned(ladder, np.array([length / 2.0]), np.zeros(1), ground.spacing)
+    ends = Strokes(*(np.concatenate([old[[first]], new]) for old, new in zip(found.strokes, axis, strict=True)))
+    allowed, upright = bounds_at_rungs(ground, [(0.0, length)])
     half = choose_places(
-        ladder, on_axis, ground.spacing, -1, 0, wanted, middle.periods, allowed, upright
+        ladder, ends, ground.spacing, min(first, 0), 1, wanted, periods, allowed, upright
     )
     halves = [(half, True)] if len(half) else []
-    for at, by in ((station, turn), (middle.length - station[::-1], -turn[::-1])):
+    for some in (rows, np.column_stack([length - rows[::-1, 0], -rows[::-1, 1]])):
         for room in AXIS_ROOMS:
-            rows = np.column_stack([at, by])[at < axis - room * gap]
-            halves += [(rows, False), (rows, True)]
-    candidates = [
-        with_chosen(found, [(-1, -1, with_image(rows, middle.length, has_axis))], stiffness)
-        for rows, has_axis in halves
-        if len(rows) or has_axis
-    ]
-    laid, every = best.laid(rule), np.ones(station.size, dtype=np.bool_)
-    candidates = [
-        one
-        for one in candidates
-        if not is_barer(
-            one.laid(rule), laid, np.ones(np.count_nonzero(one.kept), dtype=np.bool_), every
-        )
-    ]
-    if not candidates:
-        return best
-    chosen = min(candidates, key=lambda one: one.badness(one.laid(rule), whole, wanted.offset))
-    now = chosen.badness(chosen.laid(rule), whole, wanted.offset)
-    before = best.badness(best.laid(rule), whole, wanted.offset)
-    is_good = now[0] <= before[0] and now[1] <= WORSE[0] * before[1] + WORSE[1]
-    return chosen if is_good else best
+            near = some[some[:, 0] < length / 2.0 - room * axis.pivot[0, 5]]
+            halves += [(near, False), (near, True)]
+    images = [with_image(near, length, has_axis) for near, has_axis in halves]
+    chosen, least = best, best.badness(laid, (0.0, length), wanted.offset)
+    least = (least[0], WORSE[0] * least[1] + WORSE[1] * (least[1] > 0.0), np.inf)
+    for image in images:
+        if not len(image):
+            continue
+        other = with_chosen(found, [*others, (first, last, image)], stiffness)
+        now = other.laid(rule)
+        badness = other.badness(now, (0.0, length), wanted.offset)
+        if badness < least and not is_barer(now, laid):
+            chosen, least = other, badness
+    return chosen
+
+
+def with_its_image(first: int, last: int, count: int) -> tuple[int, int]:
+    """First and last stroke of a stretch across the axis that is its own image."""
+    if first < 0 or last < 0:
+        return -1, -1
+    first = min(first, count - 1 - last)
+    return first, count - 1 - first
 
 
 def with_image(rows: Floats, length: float, has_axis: bool) -> Floats:
@@ -109,25 +119,19 @@ def with_image(rows: Floats, length: float, has_axis: bool) -> Floats:
     return np.concatenate([rows, axis, image])
 
 
-def wanted_of(found: Found, steps: Floats, offset: float, stiffness: float) -> Wanted:
-    """What is asked for on a whole open slope."""
-    stretch = float(np.median(steps)) if steps.size > 1 else 1.0
-    return Wanted(offset, stretch, stiffness, 1, 0)
-
-
 def is_better(
     other: Found, now: Laid, found: Found, laid: Laid, between: tuple[float, float], offset: float
 ) -> bool:
     """Whether other strokes are less bad, and not fewer that leave an edge bare for longer."""
     if not other.badness(now, between, offset) < found.badness(laid, between, offset):
         return False
-    return not is_barer(now, laid, other.inside(now.station, between), found.inside(laid.station, between))
+    return not is_barer(now, laid)
 
 
-def is_barer(now: Laid, laid: Laid, some: Bools, before: Bools) -> bool:
+def is_barer(now: Laid, before: Laid) -> bool:
     """Whether there are fewer strokes than before and an edge is without one for longer."""
-    is_fewer = bool(np.count_nonzero(some) < np.count_nonzero(before))
-    return is_fewer and now.longest_step(some) > LONGER * laid.longest_step(before)
+    is_fewer = now.station.size < before.station.size
+    return is_fewer and now.longest_step > LONGER * before.longest_step
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
