@@ -62,16 +62,17 @@ def bare_stretches(
         for low, high in doubtful(edge, at, gap):
             count = int((high - low) / max(step, edge.length / MOST_STEPS))
             places = np.linspace(low, high, count + 2)
-            points = shapely.points(edge.at(places))
-            width = shapely.distance(points, facing)
-            apart = places[1] - places[0]
-            asked = widened(rule.gaps(width), apart)
             away = np.minimum(
                 np.where(low in at or edge.is_closed, places - low, np.inf),
                 np.where(high in at or edge.is_closed, high - places, np.inf),
             )
+            if not (away > FAR * rule.least_gap).any():
+                continue
+            points, apart = shapely.points(edge.at(places)), places[1] - places[0]
+            width = shapely.distance(points, facing)
+            asked = widened(rule.gaps(width), apart)
             is_bare = (away > FAR * asked) & (width >= least)
-            if not edge.is_closed:
+            if not edge.is_closed and is_bare.any():
                 on = shapely.line_locate_point(facing, points)
                 is_side = np.minimum(on, facing.length - on) <= SIDE * width
                 is_bare &= ~is_side | (np.minimum(places, edge.length - places) > side)
