@@ -58,9 +58,7 @@ def mouth(length: float, half: float, depth: float, width: float = 5.0) -> Strip
     """A slope with a bay in the middle of its toe."""
     x = length / 2.0
     bay = [(x - half, 0), (x - half, -depth), (x + half, -depth), (x + half, 0)]
-    return Strip(
-        LineString([(0, width), (length, width)]), LineString([(0, 0), *bay, (length, 0)])
-    )
+    return Strip(LineString([(0, width), (length, width)]), LineString([(0, 0), *bay, (length, 0)]))
 
 
 BAYS = [
@@ -91,9 +89,7 @@ def test_a_symmetric_bay_is_drawn_symmetrically(length: float, half: float, dept
 
 @pytest.mark.parametrize("width", [3.0, 5.0, 9.0])
 def test_a_stroke_down_a_bay_asks_for_no_wider_gaps_than_beside_it(width: float) -> None:
-    deep = [
-        hatch(mouth(60.0, 2.0, depth, width), min_spacing=0.1) for depth in (20.0, 40.0, 80.0)
-    ]
+    deep = [hatch(mouth(60.0, 2.0, depth, width), min_spacing=0.1) for depth in (20.0, 40.0, 80.0)]
     counts = [len(found.strokes) for found in deep]
     assert max(counts) - min(counts) <= 1
     assert min(counts) >= 0.8 * (60.0 / (width / 2.0) - 1.0)

@@ -184,8 +184,9 @@ def test_known_heights_confirm_every_top_of_opole() -> None:
     assert sum(map(len, falling)) == 224
     assert min(fall[:, 2].min() for fall in falling) > 0.0
     findings = check_slopes(slopes, problems)
-    assert [finding.check for finding in findings] == ["unmatched"] * 2
-    assert all("narrower than the shortest" in finding.reason for finding in findings)
+    assert [finding.check for finding in findings] == ["unmatched"] * 9
+    told = ("narrower than the shortest", "has no stroke for")
+    assert all(any(text in finding.reason for text in told) for finding in findings)
 
 
 @pytest.mark.shared
@@ -210,7 +211,7 @@ def test_slopes_of_gooi_with_the_crest_on_a_short_side_are_doubtful() -> None:
     assert {check: checks.count(check) for check in CHECKS if check in checks} == {
         "refused": 50,
         "orientation": 7,
-        "unmatched": 7,
+        "unmatched": 12,
     }
     assert all(finding.where is not None for finding in found)
 

@@ -257,7 +257,9 @@ def beyond_bounds(
     rows = np.flatnonzero(kept)
     ends = np.column_stack([drawn.on_top[rows], drawn.on_toe[rows]])
     on_edge = is_long[rows] & (share[rows] == 1.0)
-    laid = Laid(curves, drawn.station[rows], drawn.feet[rows], ends, gap[rows], drawn.local[rows], on_edge)
+    laid = Laid(
+        curves, drawn.station[rows], drawn.feet[rows], ends, gap[rows], drawn.local[rows], on_edge
+    )
     missing = (np.roll(rows, -1) - rows - 1) % max(kept.size, 1)
     found = [one for one in excesses(laid) if missing[one.row] == 0]
     narrow = drawn.station[drawn.kept & (np.hypot(*(drawn.on_toe - drawn.on_top).T) < least)]

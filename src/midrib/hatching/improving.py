@@ -8,7 +8,15 @@ from midrib.hatching.mirror import is_own_mirror
 from midrib.hatching.rule import Rule
 from midrib.kernels.fans import Wanted
 from midrib.kernels.gauging import LEAN, NORMAL, STEP, Course, allowed_turns
-from midrib.kernels.ladder import MOST_LOCAL, TAU, THETA, Strokes, draw_strokes, draw_turned, turn_rungs
+from midrib.kernels.ladder import (
+    MOST_LOCAL,
+    TAU,
+    THETA,
+    Strokes,
+    draw_strokes,
+    draw_turned,
+    turn_rungs,
+)
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
 
@@ -80,7 +88,9 @@ def mirrored(
     rows = np.column_stack([rows[:, 0], rows[:, 4] - rows[:, 3]])
     rows = rows[(rows[:, 0] > low) & (rows[:, 0] < high)]
     axis = draw_turned(ladder, np.array([length / 2.0]), np.zeros(1), ground.spacing)
-    ends = Strokes(*(np.concatenate([old[[first]], new]) for old, new in zip(found.strokes, axis, strict=True)))
+    ends = Strokes(
+        *(np.concatenate([old[[first]], new]) for old, new in zip(found.strokes, axis, strict=True))
+    )
     allowed, upright = bounds_at_rungs(ground, [(0.0, length)])
     half = choose_places(
         ladder, ends, ground.spacing, min(first, 0), 1, wanted, periods, allowed, upright

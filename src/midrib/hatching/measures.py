@@ -173,7 +173,10 @@ def laid_of(
     station = stations_on(middle, whole)
     pivots = shapely.line_interpolate_point(middle, station)
     local = 2.0 * np.maximum(*(shapely.distance(pivots, edge) for edge in edges))
-    ends, asked = np.column_stack([on_top, on_toe]), rule.gaps(np.hypot(*(on_toe - on_top).T), local)
+    ends, asked = (
+        np.column_stack([on_top, on_toe]),
+        rule.gaps(np.hypot(*(on_toe - on_top).T), local),
+    )
     return Laid(curves, station, np.column_stack(feet), ends, asked, local, on_edge)
 
 

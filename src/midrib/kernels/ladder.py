@@ -50,7 +50,9 @@ WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
 MOST_COPIES = 64
 TAU, X, Y, NORMAL, THETA, WIDTH, GAP, LOCAL = range(8)
-MOST_LOCAL = 1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
+MOST_LOCAL = (
+    1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
+)
 
 
 class Spacing(NamedTuple):

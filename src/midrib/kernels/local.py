@@ -22,7 +22,9 @@ from midrib.types import Floats
 
 __all__ = ["local_width"]
 
-WINDOW = 2.0  # distances from the chord's end, along the edge, where the nearest point is looked for
+WINDOW = (
+    2.0  # distances from the chord's end, along the edge, where the nearest point is looked for
+)
 
 
 @njit(borrows=True)

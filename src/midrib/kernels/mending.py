@@ -29,7 +29,9 @@ __all__ = ["LEAST_FOOT", "MOST_FOOT", "MOST_TURN", "crosses", "mend"]
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
 FOOT_COST = 60.0  # squared radians per squared gap
-LEAP = 1.0  # gaps: ends that are too far apart by more cost no more, so that none is left out for it
+LEAP = (
+    1.0  # gaps: ends that are too far apart by more cost no more, so that none is left out for it
+)
 MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more, and more than calm ones, cost
 TURN_COST = 60.0  # for each squared radian
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's

@@ -17,7 +17,19 @@ import numpy as np
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
 from midrib.kernels.fans import Fans, Wanted, cheapest_way, middle_of_fans
 from midrib.kernels.jit import njit
-from midrib.kernels.ladder import LOCAL, TAU, THETA, Ladder, Spacing, Strokes, X, Y, effective, follow, gap_at
+from midrib.kernels.ladder import (
+    LOCAL,
+    TAU,
+    THETA,
+    Ladder,
+    Spacing,
+    Strokes,
+    X,
+    Y,
+    effective,
+    follow,
+    gap_at,
+)
 from midrib.types import Floats
 
 __all__ = ["choose_places"]
