@@ -51,7 +51,7 @@ def shapes() -> list[Slope]:
 
 
 def deep_bays() -> list[Slope]:
-    """Slopes 5 wide with a bay in the middle of the toe, up to six times as deep as they are wide."""
+    """Slopes 5 wide with a bay amid the toe, up to six times as deep as they are wide."""
     found = []
     for length, mouth, depth in DEEP_BAYS:
         x = length / 2.0

@@ -402,8 +402,8 @@ def main() -> int:
         rivals.append(summary(f"{name}, random", found))
     shaken = {"the eleven shapes": turned_by_noise(made, 0.1)}
     for kind in KINDS[:-1]:
-        some = [s for s in open_ones if s.name.startswith(kind)]
-        shaken[kind] = turned_by_noise(some[: options.shaken], 0.1)
+        of_kind = [s for s in open_ones if s.name.startswith(kind)]
+        shaken[kind] = turned_by_noise(of_kind[: options.shaken], 0.1)
     text = page(groups, rivals, shaken, options.count, on_paper(polish))
     print(text)
     if not options.dry:

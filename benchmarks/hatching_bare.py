@@ -2,8 +2,9 @@
 
 It shares nothing with the engine: no middle line, no stations, no gaps of strokes. At places along
 an edge the local width is the distance to the other edge, and the gap is what the rule asks for
-there. The way along the edge to the nearest stroke's end, in such gaps, tells how bare it is. Where the nearest point of the other edge
-is next to its end, one of both is a side of the slope, if it is short: no stroke belongs there.
+there. The way along the edge to the nearest stroke's end, in such gaps, tells how bare it is. Where
+the nearest point of the other edge is next to its end, one of both is a side of the slope, if it is
+short: no stroke belongs there. Near the end of an edge the gap is that of a place within its own.
 
 edge   --x-----x----o    o    o----x-----     x  ends of strokes
                     |<- bare ->|              o  places farther than ``FAR`` gaps from all of them
@@ -13,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
+import shapely.ops
 from numpy.typing import NDArray
 from shapely import LineString, Point
 

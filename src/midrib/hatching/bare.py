@@ -1,8 +1,8 @@
 """Bare stretches: where an edge of a slope has no stroke near it although there is room.
 
 At a place on an edge the local width is the distance to the other edge. The gap there is what the
-rule asks for, or asks for at another place that is within its own gap: near the end of an edge, where
-the other one is near because it begins there, the slope is as wide as beside it.
+rule asks for, or asks for at another place that is within its own gap: near the end of an edge,
+where the other one is near because it begins there, the slope is as wide as beside it.
 """
 
 from typing import NamedTuple

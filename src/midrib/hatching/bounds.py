@@ -134,11 +134,10 @@ class Laid:
 
     @property
     def longest_step(self) -> float:
-        """Longest way along an edge without a foot, of open ones to the ends too, over its length."""
+        """Longest way along an edge without a foot, of open ones to its ends too, as a share."""
         feet, longest = np.sort(self.feet, axis=0), 0.0
-        for at, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
-            if not edge.is_closed:
-                at = np.concatenate([[0.0], at, [edge.length]])
+        for inner, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
+            at = inner if edge.is_closed else np.concatenate([[0.0], inner, [edge.length]])
             longest = max(longest, float(np.diff(at).max(initial=0.0)) / edge.length)
         return longest
 

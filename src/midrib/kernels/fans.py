@@ -129,7 +129,7 @@ def cost_of_foot(foot: float) -> float:
 
 @njit(borrows=True)
 def cost_of_leap(foot: float) -> float:
-    """What is too far of that."""
+    """Return the part of it that is for ends too far apart."""
     beyond = min(max(foot - FOOT_FARTHEST, 0.0), LEAP)
     leap = np.log(max(foot / (FOOT_FARTHEST + LEAP), 1.0))
     return FOOT_WALL * beyond * beyond + LEAP_COST * leap**3

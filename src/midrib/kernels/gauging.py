@@ -19,8 +19,8 @@ from midrib.kernels.lengths import length
 from midrib.types import Bools, Floats
 
 __all__ = [
-    "ALLOWED", "LEAN", "LEAST_TURN", "MOST_TILT", "NEAR_TOE", "NEAR_TOP", "NORMAL", "STEP", "TOE", "TOP", "TURN",
-    "Course", "allowed_turns", "gauge",
+    "ALLOWED", "LEAN", "LEAST_TURN", "MOST_TILT", "NEAR_TOE", "NEAR_TOP", "NORMAL", "STEP", "TOE",
+    "TOP", "TURN", "Course", "allowed_turns", "gauge",
 ]  # fmt: skip
 
 STEP, TOP, TOE, NEAR_TOP, NEAR_TOE, TURN, ALLOWED, NORMAL, LEAN = range(9)
