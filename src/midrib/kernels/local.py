@@ -38,7 +38,7 @@ def distance_beside(
     if is_closed:
         start = (station - reach) % arc[m]
         reach = min(reach, arc[m] / 2.0)
-    k = int(min(max(np.searchsorted(arc, start, side="right") - 1, 0), m - 1))
+    k = min(max(int(np.searchsorted(arc, start, side="right")) - 1, 0), m - 1)
     stop = start + 2.0 * reach if is_closed else station + reach
     best = np.inf
     while True:
