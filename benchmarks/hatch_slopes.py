@@ -13,12 +13,25 @@ from midrib import Strip
 from midrib.errors import MidribError
 from tables import ROOT
 
-__all__ = ["KINDS", "Slope", "noisy", "random_slopes", "real_dutch", "real_polish", "shapes"]
+__all__ = [
+    "KINDS",
+    "Slope",
+    "deep_bays",
+    "noisy",
+    "random_slopes",
+    "real_dutch",
+    "real_polish",
+    "shapes",
+]
 
 Floats = NDArray[np.float64]
 DATA = ROOT.parent / "shared" / "data"
 KINDS = ("bend", "corner", "sharp", "lens", "wedge", "noise", "bay", "spur", "deep", "ring")
 ATTEMPTS = 200
+DEEP_BAYS = (  # lengths of the top, mouths and depths
+    (20.0, 2.0, 3.0), (20.0, 2.0, 8.0), (20.0, 2.0, 10.0), (20.0, 4.0, 3.0), (20.0, 4.0, 5.0),
+    (20.0, 4.0, 15.0), (20.0, 6.0, 8.0), (40.0, 4.0, 30.0), (60.0, 4.0, 30.0),
+)  # fmt: skip
 TOUCH = 0.05  # metres: a crest line this near to a slope's boundary runs along it
 
 
@@ -35,6 +48,20 @@ def shapes() -> list[Slope]:
     return [
         Slope(name, Strip(LineString(top), LineString(toe))) for name, (top, toe) in pairs.items()
     ]
+
+
+def deep_bays() -> list[Slope]:
+    """Slopes 5 wide with a bay amid the toe, up to six times as deep as they are wide."""
+    found = []
+    for length, mouth, depth in DEEP_BAYS:
+        x = length / 2.0
+        bay = [
+            (x + way * mouth / 2.0, y) for way, y in ((-1, 0), (-1, -depth), (1, -depth), (1, 0))
+        ]
+        toe = LineString([(0.0, 0.0), *bay, (length, 0.0)])
+        top = LineString([(0.0, 5.0), (length, 5.0)])
+        found.append(Slope(f"bay {mouth:g} x {depth:g} on {length:g}", Strip(top, toe)))
+    return found
 
 
 def random_slopes(count: int, seed: int) -> list[Slope]:

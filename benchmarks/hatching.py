@@ -15,7 +15,17 @@ import shapely
 from numpy.typing import NDArray
 from shapely import LineString
 
-from hatch_slopes import KINDS, Slope, noisy, random_slopes, real_dutch, real_polish, shapes
+from hatch_slopes import (
+    KINDS,
+    Slope,
+    deep_bays,
+    noisy,
+    random_slopes,
+    real_dutch,
+    real_polish,
+    shapes,
+)
+from hatching_bare import bare_runs, unexplained
 from midrib import Strip, minimal_radii
 from midrib.errors import MidribError
 from midrib.hatching import Hatching, Rule, hatch
@@ -33,8 +43,12 @@ HEAD = (
     "slopes", "strokes", "crossings", "outside", "short of an edge", "problems",
     "spacing within 0.9 to 1.1", "worst spacing", "worst gap on top, toe", "least foot",
     "turned too far", "worst turn", "tilt, 99 %, worst", "stretch", "worst end gap",
-    "places beyond a bound", "without a problem",
+    "places beyond a bound", "without a problem", "gaps over the rule's", "bare places, untold",
 )  # fmt: skip
+
+
+MOST_TURN = 10.0  # degrees that noise may turn strokes
+TURNED = ("slopes", "half of them", "19 of 20", "worst", f"more than {MOST_TURN:g}°")
 
 
 class Row(NamedTuple):
@@ -47,6 +61,8 @@ class Row(NamedTuple):
     measures: Measures
     problems: int
     untold: int  # places beyond a bound that no problem names
+    bare: int = 0  # runs of places on edges that are far from strokes, by plain distances
+    bare_untold: int = 0  # those that no problem is near to
 
 
 # -- rivals ----------------------------------------------------------------------------------------
@@ -155,6 +171,8 @@ def hatched(slopes: Iterable[Slope], **options: Any) -> list[Row]:
                 found,
                 count,
                 len(untold(hatching, found)),
+                len(bare_runs(hatching)),
+                len(unexplained(hatching)),
             )
         )
     return rows
@@ -176,6 +194,10 @@ def summary(title: str, rows: list[Row]) -> list[str]:
     beyond = np.concatenate([m.turns - m.allowed for m in every])
     turns = np.concatenate([m.turns for m in every])
     tilts = np.concatenate([m.tilts for m in every])
+    raw = np.concatenate([m.spacing * m.stretch for m in every])
+    bare = f"{sum(row.bare for row in rows):,}, {sum(row.bare_untold for row in rows):,}"
+    if rows[0].hatching is None:
+        bare = ""
     within = np.mean((spacing >= 0.9) & (spacing <= 1.1))
     return [
         f"{title} ({len(rows)})",
@@ -195,6 +217,8 @@ def summary(title: str, rows: list[Row]) -> list[str]:
         f"{max(m.end_gap for m in every):.1f}",
         f"{sum(len(m.beyond) for m in every):,}",
         f"{sum(row.untold for row in rows):,}",
+        f"{raw.min():.2f} to {raw.max():.2f}",
+        bare,
     ]
 
 
@@ -225,6 +249,19 @@ def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
         turned = np.degrees(abs((np.array(off) + np.pi) % (2 * np.pi) - np.pi)).min(axis=0)
         changes.append(turned.max(initial=0.0))
     return np.array(changes)
+
+
+def turned_row(name: str, turns: Floats) -> list[str]:
+    """One line about noise: of how many slopes, and how far strokes turn."""
+    far = int(np.count_nonzero(turns > MOST_TURN))
+    half, most = np.percentile(turns, [50, 95])
+    return [
+        f"{name} ({turns.size})",
+        f"{half:.1f}°",
+        f"{most:.1f}°",
+        f"{turns.max():.1f}°",
+        str(far),
+    ]
 
 
 def speed(n: int, spacing: float, noise: float) -> tuple[int, float]:
@@ -331,12 +368,15 @@ def main() -> int:
     """Measure, write the page, draw the sheet."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--count", type=int, default=COUNT, help="random slopes")
+    parser.add_argument("--shaken", type=int, default=40, help="of each kind, under noise")
     parser.add_argument("--dry", action="store_true", help="print only")
     options = parser.parse_args()
     made = shapes()
     drawn = random_slopes(options.count, SEED)
     rows = hatched(made)
     groups = [summary("the eleven shapes", rows)]
+    bays = hatched(deep_bays())
+    groups.append(summary("deep bays of the toe", bays))
     for kind in KINDS:
         some = hatched([s for s in drawn if s.name.startswith(kind)], min_spacing=0.1)
         groups.append(summary(f"random, {kind}", some))
@@ -358,7 +398,10 @@ def main() -> int:
             except (MidribError, ValueError):
                 continue
         rivals.append(summary(f"{name}, random", found))
-    shaken = turned_by_noise([*made, *open_ones[:200]], 0.1)
+    shaken = {"the eleven shapes": turned_by_noise(made, 0.1)}
+    for kind in KINDS[:-1]:
+        of_kind = [s for s in open_ones if s.name.startswith(kind)]
+        shaken[kind] = turned_by_noise(of_kind[: options.shaken], 0.1)
     text = page(groups, rivals, shaken, options.count, on_paper(polish))
     print(text)
     if not options.dry:
@@ -389,7 +432,11 @@ def on_paper(rows: list[Row]) -> str:
 
 
 def page(
-    groups: list[list[str]], rivals: list[list[str]], shaken: Floats, count: int, paper: str
+    groups: list[list[str]],
+    rivals: list[list[str]],
+    shaken: dict[str, Floats],
+    count: int,
+    paper: str,
 ) -> str:
     """Figures as text."""
     fast = {
@@ -411,9 +458,8 @@ def page(
         f"{SEED + count - 1}.\n\n{markdown(HEAD, groups)}\n"
         "With one gap for the whole slope, half its mean width, beside rivals:\n\n"
         f"{markdown(HEAD, rivals)}\n"
-        f"Noise of a tenth of the width on the top turns the strokes of {len(shaken)} slopes by "
-        f"{np.median(shaken):.1f}° at most in half of them, by {np.percentile(shaken, 95):.1f}° in "
-        f"19 of 20, by {shaken.max():.1f}° in the worst.\n\n"
+        "Noise of a tenth of the width on the top turns strokes by so much at most:\n\n"
+        f"{markdown(TURNED, [turned_row(name, turns) for name, turns in shaken.items()])}\n"
         f"{paper}"
         f"One core, CPU time, triangulation and middle line included ({machine_text()}):\n\n"
         f"{markdown(('slope', 'strokes', 'strokes a second'), rates)}"

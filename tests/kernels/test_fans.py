@@ -12,6 +12,7 @@ from midrib.types import Ints
 
 TOTAL = 12.0
 OPEN = np.zeros(3)
+ENDS = np.array([[np.nan, np.nan, 0.0], [np.nan, np.nan, TOTAL]])
 
 
 def random_fans(seed: int, n: int, m: int) -> Fans:
@@ -44,8 +45,9 @@ def cost_of(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted) -> float
     for foot in (fans.feet[i, c] - fans.feet[j, d]) / plain:
         if foot <= 0.0:
             return np.inf
-        cost += 60.0 * max(0.45 - foot, foot - 1.5, 0.0) ** 2
-        cost += 2000.0 * max(0.28 - foot, foot - 1.7, 0.0) ** 2
+        cost += 60.0 * min(max(0.45 - foot, foot - 1.5, 0.0), 0.3) ** 2
+        cost += 2000.0 * max(0.28 - foot, min(foot - 1.7, 0.3), 0.0) ** 2
+        cost += 400.0 * max(np.log(foot / 2.0), 0.0) ** 3
     return float(cost)
 
 
@@ -106,7 +108,7 @@ def test_no_sequence_is_cheaper(
     seed: int, n: int, m: int, fixed: tuple[int, int], stretch: float
 ) -> None:
     fans, wanted = random_fans(seed, n, m), Wanted(1.0, stretch, 0.9, 1, 0)
-    way, cost = cheapest_way(fans, fixed, wanted, TOTAL, OPEN, np.inf)
+    way, cost = cheapest_way(fans, fixed, wanted, ENDS, OPEN, np.inf)
     expected = plain_cost(fans, fixed, wanted)
     assert cost == pytest.approx(expected)
     assert way.size or np.isinf(expected)
@@ -118,7 +120,7 @@ def test_no_sequence_is_cheaper(
 @settings(max_examples=40)
 def test_counts_are_whole_patterns(seed: int, period: int, rest: int) -> None:
     fans, wanted = random_fans(seed, 12, 3), Wanted(1.0, 1.0, 0.9, period, rest)
-    way, cost = cheapest_way(fans, (1, 1), wanted, TOTAL, OPEN, np.inf)
+    way, cost = cheapest_way(fans, (1, 1), wanted, ENDS, OPEN, np.inf)
     assert cost == pytest.approx(plain_cost(fans, (1, 1), wanted))
     assert not way.size or (way.size - 1) % period == rest
 
@@ -127,6 +129,6 @@ def test_counts_are_whole_patterns(seed: int, period: int, rest: int) -> None:
 @settings(max_examples=40)
 def test_what_others_may_cost_changes_no_choice(seed: int, share: float) -> None:
     fans, wanted = random_fans(seed, 12, 3), Wanted(1.0, 1.0, 0.9, 1, 0)
-    way, cost = cheapest_way(fans, (0, 0), wanted, TOTAL, OPEN, np.inf)
-    again, _ = cheapest_way(fans, (0, 0), wanted, TOTAL, OPEN, share * cost)
+    way, cost = cheapest_way(fans, (0, 0), wanted, ENDS, OPEN, np.inf)
+    again, _ = cheapest_way(fans, (0, 0), wanted, ENDS, OPEN, share * cost)
     assert again.tolist() == (way.tolist() if share > 1.0 else [])

@@ -9,6 +9,7 @@ from shapely import Point
 from midrib.hatching.chains import Chain
 from midrib.kernels.gauging import (
     ALLOWED,
+    LEAN,
     NEAR_TOE,
     NEAR_TOP,
     NORMAL,
@@ -19,6 +20,7 @@ from midrib.kernels.gauging import (
     Course,
     gauge,
 )
+from midrib.kernels.ladder import MOST_LOCAL
 from midrib.types import Bools, Floats
 
 __all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends", "most_at_ends"]
@@ -26,7 +28,6 @@ __all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends", "most_at_ends"]
 SPACING = (0.8, 1.25)  # gaps between neighbours on the middle line
 EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, and straight
 END_GAP = 1.5  # gaps from the ends of the middle line
-MOST_TILT = 10.0  # degrees
 ROUNDING = 1e-6  # relative
 TEXTS = {
     STEP: f"neighbours are {{:.2f}} times the rule's gap apart, {SPACING[0]:g} to {SPACING[1]:g} "
@@ -36,8 +37,7 @@ TEXTS = {
     NEAR_TOP: f"ends on the top are {{:.2f}} gaps apart, {LEAST_FOOT:g} at least wanted",
     NEAR_TOE: f"ends on the toe are {{:.2f}} gaps apart, {LEAST_FOOT:g} at least wanted",
     TURN: "neighbours turn by {:.1f} degrees, {:.1f} at most wanted",
-    NORMAL: f"the stroke is {{:.1f}} degrees off the normal of the top, {MOST_TILT:g} at most "
-    "wanted",
+    NORMAL: "the stroke is {:.1f} degrees off the normals of the edges here, {:.1f} at most wanted",
 }
 
 
@@ -59,6 +59,7 @@ class Laid:
     feet : (n, 2) stations on top and toe
     ends : (n, 4) x and y on top and toe
     asked : (n,) gaps that the rule asks for at each
+    local : (n,) local widths there
     on_edge : (n,) which of them are drawn as far as the toe; all unless given
     """
 
@@ -69,10 +70,11 @@ class Laid:
         feet: Floats,
         ends: Floats,
         asked: Floats,
+        local: Floats,
         on_edge: Bools | None = None,
     ) -> None:
         self.curves, self.station, self.feet, self.ends = curves, station, feet, ends
-        self.asked = asked
+        self.asked, self.local = asked, local
         self.on_edge = np.ones(station.size, dtype=np.bool_) if on_edge is None else on_edge
         closed = curves.middle.is_closed and station.size > 1
         self.count = station.size if closed else max(station.size - 1, 0)  # of neighbours
@@ -81,10 +83,12 @@ class Laid:
     def gauged(self) -> Floats:
         """All numbers about them; see ``midrib.kernels.gauging``."""
         line, top, toe = (Course(*curve) for curve in self.curves)
+        widths = np.hypot(*(self.ends[:, 2:] - self.ends[:, :2]).T)
+        local = np.minimum(widths, MOST_LOCAL * self.local)
         station, feet, ends, asked = (
             np.ascontiguousarray(a) for a in (self.station, self.feet, self.ends, self.asked)
         )
-        table: Floats = gauge(line, top, toe, station, feet, ends, asked, self.on_edge)
+        table: Floats = gauge(line, top, toe, station, feet, ends, asked, local, self.on_edge)
         return table
 
     def between(self, column: int) -> Floats:
@@ -94,7 +98,7 @@ class Laid:
 
     @property
     def tilts(self) -> Floats:
-        """Degrees from the normal of the top; NaN near corners."""
+        """Degrees from the normal of an edge; see ``midrib.kernels.gauging``."""
         across = np.arctan2(self.ends[:, 3] - self.ends[:, 1], self.ends[:, 2] - self.ends[:, 0])
         off = np.degrees(across - self.gauged[:, NORMAL])
         tilts: Floats = abs(off - 180.0 * np.round(off / 180.0))
@@ -117,9 +121,29 @@ class Laid:
         gaps: Floats = away / self.asked[[first, last]]
         return gaps
 
+    @property
+    def bare_ends(self) -> Floats:
+        """(2, 2) distances along top and toe from their ends to the next foot, in gaps."""
+        if not self.station.size:
+            return np.full((2, 2), np.inf)
+        first, last = int(np.argmin(self.station)), int(np.argmax(self.station))
+        lengths = np.array([self.curves.top.length, self.curves.toe.length])
+        away = np.array([self.feet[first], lengths - self.feet[last]])
+        gaps: Floats = away / self.asked[[first, last], None]
+        return gaps
+
+    @property
+    def longest_step(self) -> float:
+        """Longest way along an edge without a foot, of open ones to its ends too, as a share."""
+        feet, longest = np.sort(self.feet, axis=0), 0.0
+        for inner, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
+            at = inner if edge.is_closed else np.concatenate([[0.0], inner, [edge.length]])
+            longest = max(longest, float(np.diff(at).max(initial=0.0)) / edge.length)
+        return longest
+
     @cached_property
     def beyond(self) -> Floats:
-        """(n, 8) how far each number is beyond its bound, 0 within.
+        """(n, 9) how far each number is beyond its bound, 0 within.
 
         Of turns and tilts in radians, else as the logarithm of what it is off.
         """
@@ -131,7 +155,7 @@ class Laid:
             off[:, [TOP, TOE]] = np.log(table[:, [TOP, TOE]] / EDGE_GAP)
             off[:, [NEAR_TOP, NEAR_TOE]] = np.log(LEAST_FOOT / table[:, [NEAR_TOP, NEAR_TOE]])
         off[:, TURN] = table[:, TURN] - table[:, ALLOWED]
-        off[:, NORMAL] = np.radians(self.tilts - MOST_TILT)
+        off[:, NORMAL] = np.radians(self.tilts) - table[:, LEAN]
         return np.where(off > ROUNDING, off, 0.0)
 
 
@@ -150,9 +174,9 @@ def excesses(laid: Laid) -> list[Excess]:
     for row in np.flatnonzero(laid.beyond.any(axis=1)).tolist():
         columns = np.flatnonzero(laid.beyond[row]).tolist()
         values = laid.gauged[row].copy()
-        values[[TURN, ALLOWED]] = np.degrees(values[[TURN, ALLOWED]])
-        values[NORMAL] = laid.tilts[row]
-        reason = "; ".join(TEXTS[c].format(values[c], values[ALLOWED]) for c in columns)
+        values[[TURN, ALLOWED, LEAN]] = np.degrees(values[[TURN, ALLOWED, LEAN]])
+        values[NORMAL], most = laid.tilts[row], {TURN: values[ALLOWED], NORMAL: values[LEAN]}
+        reason = "; ".join(TEXTS[c].format(values[c], most.get(c)) for c in columns)
         where = pivots[row]
         if columns != [NORMAL]:
             where = (where + pivots[(row + 1) % n]) / 2.0

@@ -10,6 +10,7 @@ from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.bare import bare_stretches
 from midrib.hatching.bounds import Curves, Laid, excesses, far_ends
 from midrib.hatching.matching import Drawn
+from midrib.hatching.middle import LONGEST_SIDE
 from midrib.hatching.rule import Rule
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
@@ -69,7 +70,7 @@ def finish(
         reason = f"the slope is nowhere as wide as the shortest stroke, {least:.3g}; none is drawn"
         problems.append(Problem(Point(middle), reason))
     problems += too_narrow(drawn, kept, strip)
-    gap = rule.gaps(width)
+    gap = rule.gaps(width, drawn.local)
     if curves is not None:
         kept &= ~too_near(drawn, kept, gap, len(rule.pattern), strip.is_closed, problems)
         if strip.is_closed:
@@ -82,8 +83,8 @@ def finish(
     share = np.where(is_long, 1.0, short)
     if curves is not None:
         shorten(drawn, kept & is_long, gap, share, strip.is_closed, problems)
-        ends = drawn.on_top[kept], drawn.on_toe[kept], drawn.feet[kept]
-        for bare in bare_stretches((curves.top, curves.toe), rule, *ends, least):
+        edges, side = (curves.top, curves.toe), LONGEST_SIDE * float(np.mean(drawn.local))
+        for bare in bare_stretches(edges, rule, drawn.feet[kept], gap[kept], least, side):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
             problems.append(Problem(bare.where, reason))
     meet_islands(drawn, kept, is_long, share, LEAST_FOOT * gap, least, strip, problems)
@@ -274,7 +275,9 @@ def beyond_bounds(
     rows = np.flatnonzero(kept)
     ends = np.column_stack([drawn.on_top[rows], drawn.on_toe[rows]])
     on_edge = is_long[rows] & (share[rows] == 1.0)
-    laid = Laid(curves, drawn.station[rows], drawn.feet[rows], ends, gap[rows], on_edge)
+    laid = Laid(
+        curves, drawn.station[rows], drawn.feet[rows], ends, gap[rows], drawn.local[rows], on_edge
+    )
     missing = (np.roll(rows, -1) - rows - 1) % max(kept.size, 1)
     found = [one for one in excesses(laid) if missing[one.row] == 0]
     narrow = drawn.station[drawn.kept & (np.hypot(*(drawn.on_toe - drawn.on_top).T) < least)]

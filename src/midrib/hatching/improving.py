@@ -4,15 +4,27 @@ import numpy as np
 
 from midrib.hatching.bounds import Laid
 from midrib.hatching.laying import Found, Ground, draw_at
+from midrib.hatching.mirror import is_own_mirror
 from midrib.hatching.rule import Rule
 from midrib.kernels.fans import Wanted
-from midrib.kernels.gauging import NORMAL, STEP, Course, allowed_turns
-from midrib.kernels.ladder import TAU, THETA, Strokes, draw_strokes, turn_rungs
+from midrib.kernels.gauging import LEAN, NORMAL, STEP, Course, allowed_turns
+from midrib.kernels.ladder import (
+    MOST_LOCAL,
+    TAU,
+    THETA,
+    Strokes,
+    draw_strokes,
+    draw_turned,
+    turn_rungs,
+)
 from midrib.kernels.placing import choose_places
 from midrib.types import Bools, Floats
 
 __all__ = ["improved"]
 
+AXIS_ROOMS = (0.0, 0.25, 0.5, 0.75)  # gaps on either side of an axis that half the strokes leave
+WORSE = (1.1, 0.3)  # how much farther beyond bounds strokes may be for being their own mirror image
+LONGER = 1.05  # how much longer than before a step along an edge may be if there are fewer strokes
 BESIDE = 6  # calm strokes on either side of trouble that are placed anew too
 Chosen = tuple[int, int, Floats]  # first and last stroke of a stretch, which stay; and new ones
 
@@ -46,13 +58,94 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     now, better = other.laid(rule), []
     for part in chosen:
         between = span(found, *part[:2])
-        if other.badness(now, between, offset) < found.badness(laid, between, offset):
+        if is_better(other, now, found, laid, between, offset):
             better.append(part)
-    return other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
+    best = other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
+    if ground.middle.is_closed:
+        return best
+    wanted = Wanted(offset, stretch, stiffness, 1, 0)
+    return mirrored(found, best, chosen, rule, wanted, stiffness)
+
+
+def mirrored(
+    found: Found, best: Found, parts: list[Chosen], rule: Rule, wanted: Wanted, stiffness: float
+) -> Found:
+    """Strokes of a slope that is its own mirror image, so that they are theirs, if not much worse.
+
+    Tried are either half of the best ones with its image, with a stroke on the axis and without,
+    and the cheapest sequence from an end to a stroke on the axis.
+    """
+    ground, laid = found.ground, best.laid(rule)
+    ladder, length, periods = ground.ladder, ground.middle.length, ground.middle.periods
+    spans = [(part, span(found, *part[:2])) for part in parts]
+    inner = [part[:2] for part, (low, high) in spans if low < length / 2.0 < high]
+    if not inner or not is_own_mirror(ground.curves.top, ground.curves.toe):
+        return best
+    first, last = with_its_image(*inner[0], found.kept.size)
+    low, high = span(found, first, last)
+    others = [part for part, (a, b) in spans if not (a < high and low < b)]
+    rows = best.strokes.pivot[best.kept]
+    rows = np.column_stack([rows[:, 0], rows[:, 4] - rows[:, 3]])
+    rows = rows[(rows[:, 0] > low) & (rows[:, 0] < high)]
+    axis = draw_turned(ladder, np.array([length / 2.0]), np.zeros(1), ground.spacing)
+    ends = Strokes(
+        *(np.concatenate([old[[first]], new]) for old, new in zip(found.strokes, axis, strict=True))
+    )
+    allowed, upright = bounds_at_rungs(ground, [(0.0, length)])
+    half = choose_places(
+        ladder, ends, ground.spacing, min(first, 0), 1, wanted, periods, allowed, upright
+    )
+    halves = [(half, True)] if len(half) else []
+    for some in (rows, np.column_stack([length - rows[::-1, 0], -rows[::-1, 1]])):
+        for room in AXIS_ROOMS:
+            near = some[some[:, 0] < length / 2.0 - room * axis.pivot[0, 5]]
+            halves += [(near, False), (near, True)]
+    images = [with_image(near, length, has_axis) for near, has_axis in halves]
+    chosen, least = best, best.badness(laid, (0.0, length), wanted.offset)
+    least = (least[0], WORSE[0] * least[1] + WORSE[1] * (least[1] > 0.0), np.inf)
+    for image in images:
+        if not len(image):
+            continue
+        other = with_chosen(found, [*others, (first, last, image)], stiffness)
+        now = other.laid(rule)
+        badness = other.badness(now, (0.0, length), wanted.offset)
+        if badness < least and not is_barer(now, laid):
+            chosen, least = other, badness
+    return chosen
+
+
+def with_its_image(first: int, last: int, count: int) -> tuple[int, int]:
+    """First and last stroke of a stretch across the axis that is its own image."""
+    if first < 0 or last < 0:
+        return -1, -1
+    first = min(first, count - 1 - last)
+    return first, count - 1 - first
+
+
+def with_image(rows: Floats, length: float, has_axis: bool) -> Floats:
+    """Stations and turns of half the strokes, of one on the axis perhaps, and of the other half."""
+    axis = np.array([[length / 2.0, 0.0]])[: int(has_axis)]
+    image = np.column_stack([length - rows[::-1, 0], -rows[::-1, 1]])
+    return np.concatenate([rows, axis, image])
+
+
+def is_better(
+    other: Found, now: Laid, found: Found, laid: Laid, between: tuple[float, float], offset: float
+) -> bool:
+    """Whether other strokes are less bad, and not fewer that leave an edge bare for longer."""
+    if not other.badness(now, between, offset) < found.badness(laid, between, offset):
+        return False
+    return not is_barer(now, laid)
+
+
+def is_barer(now: Laid, before: Laid) -> bool:
+    """Whether there are fewer strokes than before and an edge is without one for longer."""
+    is_fewer = now.station.size < before.station.size
+    return is_fewer and now.longest_step > LONGER * before.longest_step
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
-    """How far neighbours may turn at each rung, and the normal of the top, in radians.
+    """How far neighbours may turn at each rung, and how far strokes may lean from what, in radians.
 
     Only from some stations to others; elsewhere it is infinite and NaN.
     """
@@ -65,11 +158,12 @@ def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[F
     near |= np.roll(near, 1) | np.roll(near, -1)
     strokes = draw_strokes(ladder, tau[near], ground.spacing)
     station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
-    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked)
-    line, widths = Course(*curves.middle), np.ascontiguousarray(chord[:, 6])
-    allowed, upright = np.full(tau.size, np.inf), np.full(tau.size, np.nan)
+    local = strokes.pivot[:, 6]
+    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
+    line, widths = Course(*curves.middle), np.minimum(chord[:, 6], MOST_LOCAL * local)
+    allowed, upright = np.full(tau.size, np.inf), np.full((tau.size, 2), np.nan)
     allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
-    upright[near] = laid.gauged[:, NORMAL]
+    upright[near] = laid.gauged[:, [NORMAL, LEAN]]
     return allowed, upright
 
 

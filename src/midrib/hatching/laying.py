@@ -8,7 +8,7 @@ from midrib.hatching.bounds import Curves, Laid, most_at_ends
 from midrib.hatching.middle import Middle
 from midrib.hatching.rule import Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.gauging import NORMAL, STEP
+from midrib.kernels.gauging import NORMAL, STEP, TOE, TOP
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_turned
 from midrib.kernels.mending import LEAST_FOOT, MOST_FOOT, mend
 from midrib.types import Bools, Floats
@@ -16,6 +16,8 @@ from midrib.types import Bools, Floats
 __all__ = ["Found", "Ground", "draw_at"]
 
 UNEVEN = 0.1  # logarithm of a gap over the others' ratio to the rule: from there on it is trouble
+FAR_END = 2.0  # bounds of gaps at ends: ends of edges that are so far from strokes are bare
+SPACED, LEAP = 3.0, 0.3  # gaps on the middle line count more; two leaps less than one twice as far
 WITHIN = 1e-9  # relative, for rounding
 
 
@@ -45,7 +47,9 @@ class Found(NamedTuple):
         chord = self.strokes.chord[self.kept]
         station = self.strokes.pivot[self.kept, 0]
         curves = self.ground.curves
-        return Laid(curves, station, chord[:, :2], chord[:, 2:6], rule.gaps(chord[:, 6]))
+        local = self.strokes.pivot[self.kept, 6]
+        asked = rule.gaps(chord[:, 6], local)
+        return Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
 
     def trouble(self, laid: Laid) -> Bools:
         """Which strokes are left out or beyond a bound, or not a gap from a neighbour.
@@ -64,6 +68,13 @@ class Found(NamedTuple):
             found[rows[(pairs + 1) % rows.size]] = True
         return found
 
+    def inside(self, stations: Floats, between: tuple[float, float]) -> Bools:
+        """Which stations lie from one to another, on a closed slope past its start."""
+        period, (low, high) = self.ground.middle.periods[2], between
+        ahead = (stations - low) % period if period > 0.0 else stations - low
+        within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
+        return within
+
     def badness(
         self, laid: Laid, between: tuple[float, float], offset: float
     ) -> tuple[int, float, float]:
@@ -72,22 +83,19 @@ class Found(NamedTuple):
         How many are left out, how far the others are beyond bounds, and how uneven they are: the
         logarithm of the largest gap over the smallest.
         """
-        period = self.ground.middle.periods[2]
-        low, high = between
-
-        def inside(stations: Floats) -> Bools:
-            ahead = (stations - low) % period if period > 0.0 else stations - low
-            within: Bools = (ahead >= 0.0) & (ahead <= (1.0 + WITHIN) * (high - low))
-            return within
-
-        missing = int(np.count_nonzero(inside(self.strokes.pivot[~self.kept, 0])))
-        some = inside(laid.station)
+        period, (low, high) = self.ground.middle.periods[2], between
+        missing = int(np.count_nonzero(self.inside(self.strokes.pivot[~self.kept, 0], between)))
+        some = self.inside(laid.station, between)
         steps = laid.between(STEP)
         pairs = (some & np.roll(some, -1))[: steps.size]
-        beyond = laid.beyond[: steps.size, :NORMAL][pairs].sum() + laid.beyond[some, NORMAL].sum()
+        off = laid.beyond[: steps.size][pairs]
+        beyond = off[:, :NORMAL].sum() + laid.beyond[some, NORMAL].sum()
+        beyond += SPACED * off[:, STEP].sum() + LEAP * (off[:, [TOP, TOE]] ** 3).sum()
         if period == 0.0:
             reached = np.array([low <= 0.0, high >= self.ground.middle.length])
-            beyond += np.log(np.maximum(laid.end_gaps / most_at_ends(offset), 1.0))[reached].sum()
+            most = most_at_ends(offset)
+            beyond += np.log(np.maximum(laid.end_gaps / most, 1.0))[reached].sum()
+            beyond += np.log(np.maximum(laid.bare_ends / (FAR_END * most), 1.0))[reached].sum()
         ratio = steps[pairs].max() / steps[pairs].min() if pairs.any() else 1.0
         return missing, round(float(beyond), 4), round(float(np.log(ratio)), 4)
 
@@ -125,7 +133,7 @@ def draw_at(
 def calmest(strokes: Strokes, periods: Floats) -> int:
     """Row in the middle of the longest run of strokes that advance on both edges as they should."""
     ahead = (np.roll(strokes.chord[:, :2], -1, axis=0) - strokes.chord[:, :2]) % periods[:2]
-    shares = ahead / strokes.pivot[:, 5:]
+    shares = ahead / strokes.pivot[:, 5:6]
     is_calm = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
     is_calm &= (shares > LEAST_FOOT).all(axis=1) & (shares < MOST_FOOT).all(axis=1)
     n = is_calm.size

@@ -31,6 +31,7 @@ class Drawn(NamedTuple):
     on_top: Floats
     on_toe: Floats
     feet: Floats  # (n, 2) stations of these on the edges of the middle line's slope
+    local: Floats  # (n,) local widths
     kept: Bools
     reason: str  # why others are not
 
@@ -42,6 +43,7 @@ class Drawn(NamedTuple):
             self.on_top[rows],
             self.on_toe[rows],
             self.feet[rows],
+            self.local[rows],
             self.kept[rows],
             self.reason,
         )
@@ -147,6 +149,7 @@ def drawn_of(strokes: Strokes, kept: Bools) -> Drawn:
         strokes.chord[:, 2:4],
         strokes.chord[:, 4:6],
         strokes.chord[:, 0:2],
+        strokes.pivot[:, 6],
         kept,
         UNMATCHED,
     )
@@ -176,6 +179,7 @@ def with_ends(drawn: Drawn, middle: Middle, rule: Rule) -> Drawn:
             np.insert(drawn.on_top, place, on_top, axis=0),
             np.insert(drawn.on_toe, place, on_toe, axis=0),
             np.insert(drawn.feet, place, feet, axis=0),
+            np.insert(drawn.local, place, np.hypot(*(on_toe - on_top))),
             np.insert(drawn.kept, place, True),
             drawn.reason,
         )

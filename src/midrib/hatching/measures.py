@@ -10,7 +10,7 @@ from shapely import LineString
 from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
 from midrib.hatching.chains import chain_of
 from midrib.kernels.crossings import meet
-from midrib.kernels.gauging import ALLOWED, STEP, TOE, TOP, TURN
+from midrib.kernels.gauging import ALLOWED, LEAN, MOST_TILT, STEP, TOE, TOP, TURN
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -133,7 +133,7 @@ def measure_strokes(
         least_foot=laid.feet_apart,
         turns=np.degrees(laid.between(TURN)),
         allowed=np.degrees(laid.between(ALLOWED)),
-        tilts=tilts[~np.isnan(tilts)],
+        tilts=tilts[laid.gauged[:, LEAN] == MOST_TILT],
         beyond=excesses(laid) + far_ends(laid),
     )
 
@@ -170,8 +170,14 @@ def laid_of(
         for edge, ends in zip(edges, (on_top, on_toe), strict=True)
     ]
     curves = Curves(chain_of(middle), chain_of(edges[0]), chain_of(edges[1]))
-    ends, asked = np.column_stack([on_top, on_toe]), rule.gaps(np.hypot(*(on_toe - on_top).T))
-    return Laid(curves, stations_on(middle, whole), np.column_stack(feet), ends, asked, on_edge)
+    station = stations_on(middle, whole)
+    pivots = shapely.line_interpolate_point(middle, station)
+    local = 2.0 * np.maximum(*(shapely.distance(pivots, edge) for edge in edges))
+    ends, asked = (
+        np.column_stack([on_top, on_toe]),
+        rule.gaps(np.hypot(*(on_toe - on_top).T), local),
+    )
+    return Laid(curves, station, np.column_stack(feet), ends, asked, local, on_edge)
 
 
 def crossings(strokes: "NDArray[np.object_]") -> int:

@@ -53,7 +53,8 @@ def draw_by_paper(strip: Strip, rule: Rule) -> Drawn:
     middle = np.where(found[:, None], (on_top + on_toe) / 2.0, on_top)
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(middle, axis=0).T))])
     feet = np.full((stations.size, 2), np.nan)  # nothing looks for bare stretches
-    return Drawn(along, middle, on_top, on_toe, feet, found, BLIND)
+    local = np.full(stations.size, np.inf)  # the paper's rule takes radii as they are
+    return Drawn(along, middle, on_top, on_toe, feet, local, found, BLIND)
 
 
 def march(probes: Floats, lengths: Floats, total: float, rule: Rule) -> Floats:

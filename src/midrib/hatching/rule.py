@@ -11,6 +11,7 @@ from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
 from midrib.hatching.keys import STROKED
 from midrib.hatching.standards import standard as standard_named
+from midrib.kernels.ladder import MOST_LOCAL
 
 if TYPE_CHECKING:
     from shapely import LineString
@@ -31,7 +32,7 @@ class Rule:
     """The rule of a standard at a scale, in coordinate units.
 
     The gap between two strokes is ``clamp(factor w, min_spacing, max_spacing)`` where w is their
-    length from top to toe, or ``spacing`` throughout.
+    length from top to toe, but no more than 1.5 local widths, or ``spacing`` throughout.
     """
 
     factor: float | None = 0.5
@@ -55,8 +56,13 @@ class Rule:
             return self.least_gap
         return np.inf if self.max_spacing is None else max(self.max_spacing, self.min_spacing)
 
-    def gaps(self, width: "Floats") -> "Floats":
-        """Gaps that the rule asks for beside strokes that are so long."""
+    def gaps(self, width: "Floats", local: "Floats | None" = None) -> "Floats":
+        """Gaps that the rule asks for beside strokes that are so long, where slopes are so wide.
+
+        A stroke down a bay is longer than the slope is wide there: it counts for 1.5 local widths.
+        """
+        if local is not None:
+            width = np.minimum(width, MOST_LOCAL * local)
         gaps: Floats = np.clip((self.factor or 0.0) * width, self.least_gap, self.largest_gap)
         return gaps
 

@@ -27,6 +27,7 @@ TURN_COST, TURN_ROOM = 200.0, 0.9  # for each squared radian beyond so much of w
 TURN_WALL, TURN_NEARLY = 20_000.0, 0.985
 FOOT_COST, FOOT_NEAR, FOOT_FAR = 60.0, 0.45, 1.5  # for each squared gap beyond these
 FOOT_WALL, FOOT_NEAREST, FOOT_FARTHEST = 2000.0, 0.28, 1.7
+LEAP, LEAP_COST = 0.3, 400.0  # gaps beyond that; then of the cubed logarithm
 AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
 END_ROOM = 0.35  # of l there; more costs much
 TIED = 1.0 - 2.0**-30  # a way that is cheaper by less is as cheap, whatever rounding says
@@ -57,13 +58,21 @@ class Wanted(NamedTuple):
 
 
 @njit(borrows=True)
-def cost_of_end(away: float, gap: float) -> float:
-    """Cost of a first or last stroke that is so far from the end, where it should be a gap."""
+def cost_of_end(fans: Fans, i: int, c: int, end: Floats, wanted: Wanted) -> float:
+    """Cost of a first or last stroke that is so far from the end, where it should be a gap.
+
+    ``end`` has the stations on top, toe and middle line; NaN what there is not.
+    """
+    away, gap = abs(fans.tau[i] - end[2]), wanted.offset * wanted.stretch * fans.gap[i, c]
     if away <= 0.0 or abs(np.log(away / gap)) >= FARTHEST_END:
         return np.inf
     off = np.log(away / gap)
     beyond = max(off - END_ROOM, 0.0)
-    return AT_END * off * off + GAP_WALL * beyond * beyond
+    cost = AT_END * off * off + GAP_WALL * beyond * beyond
+    for edge in range(2):
+        if not np.isnan(end[edge]):
+            cost += cost_of_leap(abs(fans.feet[i, c, edge] - end[edge]) / gap)
+    return cost
 
 
 @njit(borrows=True)
@@ -101,15 +110,34 @@ def cost_of_step(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted, mos
         if foot <= 0.0:
             return np.inf
         foot /= plain
-        over = max(FOOT_NEAR - foot, foot - FOOT_FAR, 0.0)
-        beyond = max(FOOT_NEAREST - foot, foot - FOOT_FARTHEST, 0.0)
-        cost += FOOT_COST * over * over + FOOT_WALL * beyond * beyond
+        cost += cost_of_foot(foot)
     return cost
+
+
+@njit(borrows=True)
+def cost_of_foot(foot: float) -> float:
+    """Cost of feet that are so many gaps apart on an edge.
+
+    Where an edge leaps, as at the walls of a bay that is deeper than wide, some ends have to be far
+    apart. Then the cost grows slowly: the strokes around need not lean for it. Yet a leap costs
+    more than two of half the way, so that a stroke in the bay is worth it.
+    """
+    over = min(max(FOOT_NEAR - foot, foot - FOOT_FAR, 0.0), LEAP)
+    beyond = max(FOOT_NEAREST - foot, 0.0)
+    return FOOT_COST * over * over + FOOT_WALL * beyond * beyond + cost_of_leap(foot)
+
+
+@njit(borrows=True)
+def cost_of_leap(foot: float) -> float:
+    """Return the part of it that is for ends too far apart."""
+    beyond = min(max(foot - FOOT_FARTHEST, 0.0), LEAP)
+    leap = np.log(max(foot / (FOOT_FARTHEST + LEAP), 1.0))
+    return FOOT_WALL * beyond * beyond + LEAP_COST * leap**3
 
 
 @njit(entry=True)
 def cheapest_way(
-    fans: Fans, fixed: tuple[int, int], wanted: Wanted, total: float, periods: Floats, most: float
+    fans: Fans, fixed: tuple[int, int], wanted: Wanted, ends: Floats, periods: Floats, most: float
 ) -> tuple[Ints, float]:
     """Return the cheapest sequence of chords, as i m + c for chord c at place i, and its cost.
 
@@ -120,7 +148,7 @@ def cheapest_way(
     fans : Fans
     fixed : whether it has to begin at the first place, and to end at the last one
     wanted : Wanted
-    total : length of the middle line
+    ends : (2, 3) stations of both ends of an open slope on top, toe and middle line
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
     most : float
     """
@@ -146,7 +174,7 @@ def cheapest_way(
             if own == np.inf:
                 continue
             if fixed[0] == 0:
-                cost[i, c, 0] = own + cost_of_end(fans.tau[i], wanted.offset * wanted.stretch * gap)
+                cost[i, c, 0] = own + cost_of_end(fans, i, c, ends[0], wanted)
             elif i == 0:
                 cost[i, c, 0] = own
             # From a gap before this place on, those farther and then those nearer: so a cheap way
@@ -190,8 +218,7 @@ def cheapest_way(
             if np.isinf(way):
                 continue
             if fixed[1] == 0:
-                away = total - fans.tau[i]
-                way += cost_of_end(away, wanted.offset * wanted.stretch * fans.gap[i, c])
+                way += cost_of_end(fans, i, c, ends[1], wanted)
             if way < TIED * best:
                 best, at = way, (i * m + c) * period + wanted.rest
     count, back, ways = 0, at, came.ravel()

@@ -6,8 +6,8 @@ line  ----o-----o--------    TOP, TOE  between their ends along the edges, in ga
           |     |            NEAR_TOP, NEAR_TOE  straight, in gaps; to the next that is drawn
 toe  -----b-----d--------              as far as the toe
                              TURN, ALLOWED  angle between them, and what it may be
-                             NORMAL    direction of the top's normal; NaN near
-                                       corners and ends
+                             NORMAL    direction of the normal of an edge
+                             LEAN      how far the stroke may be off it
 """
 
 from typing import NamedTuple
@@ -19,14 +19,17 @@ from midrib.kernels.lengths import length
 from midrib.types import Bools, Floats
 
 __all__ = [
-    "ALLOWED", "LEAST_TURN", "NEAR_TOE", "NEAR_TOP", "NORMAL", "STEP", "TOE", "TOP", "TURN",
-    "Course", "allowed_turns", "gauge",
+    "ALLOWED", "LEAN", "LEAST_TURN", "MOST_TILT", "NEAR_TOE", "NEAR_TOP", "NORMAL", "STEP", "TOE",
+    "TOP", "TURN", "Course", "allowed_turns", "gauge",
 ]  # fmt: skip
 
-STEP, TOP, TOE, NEAR_TOP, NEAR_TOE, TURN, ALLOWED, NORMAL = range(8)
+STEP, TOP, TOE, NEAR_TOP, NEAR_TOE, TURN, ALLOWED, NORMAL, LEAN = range(9)
 LEAST_TURN = np.pi / 9.0  # 20 degrees: so much neighbours may turn anyway
 CORNER = 1.5  # lengths of stroke to either side, over which the middle line may turn too
 STRAIGHT = np.pi / 18.0  # 10 degrees: an edge that turns less within two widths has no corner there
+MOST_TILT = np.pi / 18.0  # 10 degrees from the normal, where both edges are straight and parallel
+MOST_LEAN = np.pi / 7.2  # 25 degrees beyond all normals of the straighter edge, anywhere else
+SHORTEST_CHORD = 0.25  # widths: shorter ends of an edge have no direction
 PLACES = (-1.5, -0.75, 0.0, 0.75, 1.5)  # widths from an end, where directions over a width are told
 
 
@@ -82,6 +85,51 @@ def is_straight(course: Course, station: float, width: float) -> bool:
         if not abs(folded(off, 2.0 * np.pi)) <= STRAIGHT:
             return False
     return True
+
+
+@njit(borrows=True)
+def spread(course: Course, station: float, width: float) -> tuple[float, float]:
+    """Middle of the directions of a course within two widths of a station, and half their range."""
+    low, high, first = np.inf, -np.inf, np.nan
+    for k in range(-2, 2):
+        start, stop = station + k * width, station + (k + 1) * width
+        if not course.is_closed:
+            start, stop = max(start, 0.0), min(stop, course.arc[course.arc.size - 1])
+        if stop - start < SHORTEST_CHORD * width:
+            continue
+        ax, ay = place_on(course, start)
+        bx, by = place_on(course, stop)
+        direction = np.arctan2(by - ay, bx - ax)
+        if np.isnan(first):
+            first = direction
+        off = folded(direction - first, 2.0 * np.pi)
+        low, high = min(low, off), max(high, off)
+    return first + (low + high) / 2.0, (high - low) / 2.0
+
+
+@njit(borrows=True)
+def leaning(
+    top: Course, toe: Course, on_top: float, on_toe: float, width: float
+) -> tuple[float, float]:
+    """Direction of the normal that a stroke may not lean from too far, and how far it may.
+
+    Where both edges are straight and parallel it is that of the top. Anywhere else the stroke may
+    be normal to any part of the straighter edge beside it, of both if both are straight.
+    """
+    if is_straight(top, on_top, width) and is_straight(toe, on_toe, width):
+        here = direction_on(top, on_top, width)
+        off = direction_on(toe, on_toe, width) - here
+        if abs(folded(off, 2.0 * np.pi)) <= STRAIGHT:
+            return here + np.pi / 2.0, MOST_TILT
+    middle, half = spread(top, on_top, width)
+    other, wider = spread(toe, on_toe, width)
+    if not half <= wider:
+        middle, half, other, wider = other, wider, middle, half
+    if wider <= STRAIGHT:
+        off = folded(other - middle, np.pi)
+        low, high = min(-half, off - wider), max(half, off + wider)
+        middle, half = middle + (low + high) / 2.0, (high - low) / 2.0
+    return middle + np.pi / 2.0, half + MOST_LEAN
 
 
 @njit()
@@ -150,6 +198,7 @@ def gauge(
     feet: Floats,
     ends: Floats,
     asked: Floats,
+    local: Floats,
     on_edge: Bools,
 ) -> Floats:
     """Gauge strokes.
@@ -162,23 +211,19 @@ def gauge(
     feet : (n, 2) of their ends on top and toe
     ends : (n, 4) x and y of these
     asked : (n,) gaps that the rule asks for at each
+    local : (n,) lengths of strokes, of longer ones so many local widths
     on_edge : (n,) which strokes are drawn as far as the toe
 
     Returns
     -------
-    (n, 8) : what the columns are is told above. The last row of a slope that is not closed, and
+    (n, 9) : what the columns are is told above. The last row of a slope that is not closed, and
         what there is not, is NaN. O((n + m) log m).
     """
     n = station.size
-    found, known = np.full((n, 8), np.nan), headings(line)
+    found, known = np.full((n, 9), np.nan), headings(line)
     for i in range(n):
         dx, dy = ends[i, 2] - ends[i, 0], ends[i, 3] - ends[i, 1]
-        width = length(dx, dy)
-        if is_straight(top, feet[i, 0], width) and is_straight(toe, feet[i, 1], width):
-            here = direction_on(top, feet[i, 0], width)
-            off = direction_on(toe, feet[i, 1], width) - here
-            if abs(folded(off, 2.0 * np.pi)) <= STRAIGHT:
-                found[i, NORMAL] = here + np.pi / 2.0
+        found[i, NORMAL], found[i, LEAN] = leaning(top, toe, feet[i, 0], feet[i, 1], local[i])
         if n < 2 or (i == n - 1 and not line.is_closed):
             continue
         j = (i + 1) % n
@@ -192,7 +237,7 @@ def gauge(
         found[i, NEAR_TOP] = length(ends[j, 0] - ends[i, 0], ends[j, 1] - ends[i, 1]) / gap
         ex, ey = ends[j, 2] - ends[j, 0], ends[j, 3] - ends[j, 1]
         found[i, TURN] = abs(np.arctan2(dx * ey - dy * ex, dx * ex + dy * ey))
-        widest = max(width, length(ex, ey))
+        widest = max(local[i], local[j])
         found[i, ALLOWED] = allowed_at(line, known, station[i] + step / 2.0, widest, gap)
     gauge_toe(found, ends, asked, on_edge, line.is_closed)
     return found

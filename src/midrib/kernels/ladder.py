@@ -13,7 +13,8 @@ nothing is left of it; what is much shorter than w is evened out.
 
 tau       arc length along the middle line
 w         length of the chord
-b         gap that the rule asks for: clamp(factor w, least, most)
+l         local width, twice the distance from the line to the edges; l <= w
+b         gap that the rule asks for: clamp(factor min(w, 1.5 l), least, most)
 """
 
 from typing import NamedTuple
@@ -24,6 +25,7 @@ from midrib.kernels.chain import Chain
 from midrib.kernels.chords import ON_TOP, Chord, Ground, ground_of, locate, shoot
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
+from midrib.kernels.local import local_width
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import walk
 from midrib.kernels.tables import with_rows
@@ -36,6 +38,7 @@ __all__ = [
     "build_ladder",
     "draw_strokes",
     "draw_turned",
+    "effective",
     "follow",
     "gap_at",
     "turn_rungs",
@@ -46,7 +49,10 @@ MOST_RUNGS = 2**24
 WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
 MOST_COPIES = 64
-TAU, X, Y, NORMAL, THETA, WIDTH, GAP = range(7)
+TAU, X, Y, NORMAL, THETA, WIDTH, GAP, LOCAL = range(8)
+MOST_LOCAL = (
+    1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
+)
 
 
 class Spacing(NamedTuple):
@@ -63,14 +69,14 @@ class Ladder(NamedTuple):
     ground: Ground
     line: Floats  # (m, 2) the middle line
     arc: Floats  # (m,) stations of its vertices
-    rungs: Floats  # (n, 7) tau, x, y, normal, theta, width, gap
+    rungs: Floats  # (n, 8) tau, x, y, normal, theta, width, gap, local width
     at: Ints  # (n, 2) triangle of the pivot, segment of the line
 
 
 class Strokes(NamedTuple):
     """Whole strokes: pivots, what they aim at, and their chords."""
 
-    pivot: Floats  # (n, 6) tau, x, y, calm direction, chosen direction, gap
+    pivot: Floats  # (n, 7) tau, x, y, calm direction, chosen one, gap, local width
     triangle: Ints  # (n,) of the pivot
     chord: Floats  # (n, 7) s, t, top x, y, toe x, y, width
     on: Ints  # (n, 2) the edges that the two ends lie on
@@ -80,6 +86,12 @@ class Strokes(NamedTuple):
 def gap_at(rule: Spacing, width: float) -> float:
     """Gap that the rule asks for where strokes are so long."""
     return min(max(rule.factor * width, rule.least), rule.most)
+
+
+@njit(borrows=True)
+def effective(width: float, local: float) -> float:
+    """Length of a stroke as the rule takes it: of the local width so many times at most."""
+    return min(width, MOST_LOCAL * local)
 
 
 @njit(borrows=True)
@@ -242,18 +254,20 @@ def build_ladder(
         arc[i] = arc[i - 1] + length(line[i, 0] - line[i - 1, 0], line[i, 1] - line[i - 1, 1])
     total = arc[m - 1]
     is_closed = line[0, 0] == line[m - 1, 0] and line[0, 1] == line[m - 1, 1]
-    rungs, at = np.empty((256, 7)), np.empty((256, 2), np.intp)
-    # 1. Rungs at right angles to the line, as far apart as the last one is long.
+    rungs, at = np.empty((256, 8)), np.empty((256, 2), np.intp)
+    # 1. Rungs at right angles to the line, as far apart as the last one asks for.
     tau, k, x, y = 0.0, 0, line[0, 0], line[0, 1]
     t = locate(mesh, x, y)
-    n, gap = 0, rule.least
+    n, gap, near = 0, rule.least, np.zeros(2)
     while n < MOST_RUNGS:
         if n + 1 >= rungs.shape[0]:
             rungs, at = with_rows(rungs, 2 * n + 2), with_rows(at, 2 * n + 2)
         normal = normal_at(line, arc, k, tau, gap / 2.0, is_closed)
         chord = shoot(ground, t, x, y, normal)
+        local = local_width(mesh, top, toe, near, chord, x, y, is_closed)
+        width = effective(chord.width, local)
         if n > 0 or is_closed:  # a chord from the end of an open line may lie along the boundary
-            gap = gap_at(rule, chord.width)
+            gap = gap_at(rule, width)
         if top_share > 0.0 and chord.top_on == ON_TOP:
             ax, ay = point_of(mesh, top, chord.s - gap / 2.0, is_closed)
             bx, by = point_of(mesh, top, chord.s + gap / 2.0, is_closed)
@@ -262,7 +276,8 @@ def build_ladder(
         if n > 0:
             normal += WHOLE_TURN * np.round((rungs[n - 1, NORMAL] - normal) / WHOLE_TURN)
         rungs[n, TAU], rungs[n, X], rungs[n, Y] = tau, x, y
-        rungs[n, NORMAL], rungs[n, WIDTH] = normal, chord.width
+        rungs[n, NORMAL], rungs[n, WIDTH] = normal, width
+        rungs[n, LOCAL] = local
         at[n, 0], at[n, 1] = t, k
         n += 1
         if tau == total:
@@ -276,7 +291,7 @@ def build_ladder(
     # 2. Calm directions; the closing rung is the first one after whole turns.
     calm_down(rungs, n, total, stiffness, is_closed)
     if is_closed:
-        for column in range(7):
+        for column in range(8):
             rungs[n, column] = rungs[0, column]
         turn = np.round((rungs[n - 1, NORMAL] - rungs[0, NORMAL]) / WHOLE_TURN) * WHOLE_TURN
         rungs[n, TAU], rungs[n, THETA] = total, rungs[0, THETA] + turn
@@ -302,10 +317,12 @@ def measure_gaps(ladder: Ladder, rule: Spacing, known: Floats) -> None:
         if theta == known[i]:
             continue
         chord = shoot(ladder.ground, ladder.at[i, 0], x, y, theta)
-        rungs[i, WIDTH], rungs[i, GAP] = chord.width, gap_at(rule, chord.width)
+        width = effective(chord.width, rungs[i, LOCAL])
+        rungs[i, WIDTH], rungs[i, GAP] = width, gap_at(rule, width)
     if line[0, 0] != line[m - 1, 0] or line[0, 1] != line[m - 1, 1]:  # open: see build_ladder
         for i, beside in ((0, 1), (n - 1, n - 2)):
             rungs[i, WIDTH], rungs[i, GAP] = rungs[beside, WIDTH], rungs[beside, GAP]
+            rungs[i, LOCAL] = rungs[beside, LOCAL]
 
 
 @njit(entry=True)
@@ -344,7 +361,7 @@ def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) 
     rungs, at, line, arc = ladder.rungs, ladder.at, ladder.line, ladder.arc
     n = stations.size
     strokes = Strokes(
-        np.empty((n, 6)), np.empty(n, np.intp), np.empty((n, 7)), np.empty((n, 2), np.intp)
+        np.empty((n, 7)), np.empty(n, np.intp), np.empty((n, 7)), np.empty((n, 2), np.intp)
     )
     j = 0
     for i in range(n):
@@ -359,7 +376,9 @@ def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) 
         chord = shoot(ladder.ground, t, x, y, theta + turns[i])
         strokes.pivot[i, 0], strokes.pivot[i, 1], strokes.pivot[i, 2] = tau, x, y
         strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta + turns[i]
-        strokes.pivot[i, 5] = gap_at(rule, chord.width)
+        local = rungs[j, LOCAL] + share * (rungs[j + 1, LOCAL] - rungs[j, LOCAL])
+        strokes.pivot[i, 5] = gap_at(rule, effective(chord.width, local))
+        strokes.pivot[i, 6] = local
         strokes.triangle[i] = t
         write_chord(strokes, i, chord)
     return strokes

@@ -29,6 +29,9 @@ __all__ = ["LEAST_FOOT", "MOST_FOOT", "MOST_TURN", "crosses", "mend"]
 REACH = 4  # calm strokes on either side that choose again too
 LEAST_FOOT, MOST_FOOT = 0.3, 1.6  # of a gap: feet nearer or farther than that cost
 FOOT_COST = 60.0  # squared radians per squared gap
+LEAP = (
+    1.0  # gaps: ends that are too far apart by more cost no more, so that none is left out for it
+)
 MOST_TURN = np.pi / 9.0  # 20 degrees: neighbours that turn more, and more than calm ones, cost
 TURN_COST = 60.0  # for each squared radian
 OMISSION = 100.0  # cost of a stroke that is left out, more than any chosen one's
@@ -101,7 +104,7 @@ def cost_of_step(
     over = max(abs(calm + turn) - most, 0.0)
     cost += TURN_COST * over * over
     for foot in (ahead / gap, beside / gap):
-        off = max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0)
+        off = min(max(LEAST_FOOT - foot, foot - MOST_FOOT - missing, 0.0), LEAP)
         cost += FOOT_COST * off * off
     return cost + OMISSION * missing
 

@@ -17,7 +17,19 @@ import numpy as np
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
 from midrib.kernels.fans import Fans, Wanted, cheapest_way, middle_of_fans
 from midrib.kernels.jit import njit
-from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, X, Y, follow, gap_at
+from midrib.kernels.ladder import (
+    LOCAL,
+    TAU,
+    THETA,
+    Ladder,
+    Spacing,
+    Strokes,
+    X,
+    Y,
+    effective,
+    follow,
+    gap_at,
+)
 from midrib.types import Floats
 
 __all__ = ["choose_places"]
@@ -26,9 +38,9 @@ COARSE = 2  # rungs from one place to the next
 FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
 LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as much, relative
 NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
+FINE, GRAZE, LEAP_OF_FOOT = np.pi / 90.0, 20.0, 0.5  # steps from which on grazes cost; gaps
 FINER, LEVELS = (-1.0, 0.0, 1.0), 4  # places then, in steps that are halved as well
-TILT_WALL, TILT_ROOM = 400.0, 0.95  # for each squared radian beyond so much of the most tilt
-MOST_TILT = np.pi / 18.0  # from the normal of the top
+TILT_WALL, TILT_ROOM = 20_000.0, 0.01  # for each squared radian beyond the bound, but for so much
 
 
 @njit(borrows=True)
@@ -44,6 +56,35 @@ def station_at(rungs: Floats, place: float, periods: Floats) -> tuple[int, float
         return lap, 0.0, rungs[lap, TAU] if place == lap else np.inf
     step = rungs[k + 1, TAU] - rungs[k, TAU]
     return k, share, rungs[k, TAU] + share * step + laps * periods[2]
+
+
+@njit()
+def ends_of(ladder: Ladder) -> Floats:
+    """Stations of both ends on top, toe and middle line: where the chords next to them end."""
+    rungs, lap = ladder.rungs, ladder.rungs.shape[0] - 1
+    found = np.full((2, 3), np.nan)
+    for row, k in enumerate((1, lap - 1)):
+        chord = shoot(ladder.ground, ladder.at[k, 0], rungs[k, X], rungs[k, Y], rungs[k, THETA])
+        found[row, 2] = rungs[row * lap, TAU]
+        if chord.top_on == ON_TOP and chord.toe_on == ON_TOE:
+            found[row, 0], found[row, 1] = chord.s, chord.t
+    return found
+
+
+@njit(borrows=True)
+def add_grazes(fans: Fans, step: float) -> None:
+    """Let chords cost more beside which others end elsewhere: rounding may send them there."""
+    n, m = fans.turn.shape
+    for i in range(n):
+        for c in range(m - 1):
+            if fans.cost[i, c] == np.inf or fans.cost[i, c + 1] == np.inf:
+                continue
+            wide = max(fans.width[i, c], fans.width[i, c + 1])
+            near = LEAP_OF_FOOT * min(fans.gap[i, c], fans.gap[i, c + 1]) + 2.0 * step * wide
+            for edge in range(2):
+                if abs(fans.feet[i, c + 1, edge] - fans.feet[i, c, edge]) > near:
+                    fans.cost[i, c] += GRAZE
+                    fans.cost[i, c + 1] += GRAZE
 
 
 @njit()
@@ -75,16 +116,17 @@ def open_fans(
                 calm[i] += rungs[lap, THETA] - rungs[0, THETA]
             turn[i, half] = strokes.pivot[row, 4] - strokes.pivot[row, 3]
             feet[i, half, 0], feet[i, half, 1] = strokes.chord[row, 0], strokes.chord[row, 1]
-            width[i, half] = strokes.chord[row, 6]
-            gap[i, half], cost[i, half] = gap_at(rule, width[i, half]), 0.0
+            width[i, half] = effective(strokes.chord[row, 6], strokes.pivot[row, 6])
+            gap[i, half], cost[i, half] = strokes.pivot[row, 5], 0.0
             continue
         k, share, tau[i] = station_at(rungs, places[i, 0], periods)
         t, x, y = ladder.at[k, 0], rungs[k, X], rungs[k, Y]
-        theta, most[i] = rungs[k, THETA], allowed[k]
+        theta, most[i], local = rungs[k, THETA], allowed[k], rungs[k, LOCAL]
         if share > 0.0:
             on_line = rungs[k, TAU] + share * (rungs[k + 1, TAU] - rungs[k, TAU])
             t, _, x, y = follow(mesh, ladder.line, ladder.arc, t, ladder.at[k, 1], x, y, on_line)
             theta += share * (rungs[k + 1, THETA] - theta)
+            local += share * (rungs[k + 1, LOCAL] - local)
         calm[i] = theta
         if periods[2] > 0.0:
             calm[i] += (places[i, 0] // lap) * (rungs[lap, THETA] - rungs[0, THETA])
@@ -94,14 +136,18 @@ def open_fans(
             if chord.top_on != ON_TOP or chord.toe_on != ON_TOE:
                 continue
             feet[i, c, 0], feet[i, c, 1] = chord.s, chord.t
-            width[i, c], gap[i, c] = chord.width, gap_at(rule, chord.width)
+            width[i, c] = effective(chord.width, local)
+            gap[i, c] = gap_at(rule, width[i, c])
             cost[i, c] = turn[i, c] * turn[i, c]
-            if not np.isnan(upright[k]):
-                off = theta + turn[i, c] - upright[k]
-                off = abs(off - np.pi * np.round(off / np.pi))
-                over = max(off - TILT_ROOM * MOST_TILT, 0.0)
+            off = theta + turn[i, c] - upright[k, 0]
+            off = abs(off - np.pi * np.round(off / np.pi))
+            over = off - upright[k, 1] + TILT_ROOM
+            if over > 0.0:  # not where there is no bound, which is NaN
                 cost[i, c] += TILT_WALL * over * over
-    return Fans(tau, calm, most, turn, feet, width, gap, cost)
+    fans = Fans(tau, calm, most, turn, feet, width, gap, cost)
+    if step < FINE:
+        add_grazes(fans, step)
+    return fans
 
 
 @njit(entry=True)
@@ -128,7 +174,8 @@ def choose_places(
     wanted : what is asked for besides
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
     allowed : (n,) angle at each rung that neighbours may turn
-    upright : (n,) direction of the normal of the top at each rung; NaN near corners
+    upright : (n, 2) direction of the normal of an edge at each rung, and how far strokes may lean
+        from it; NaN where there is no bound
 
     Returns
     -------
@@ -152,18 +199,19 @@ def choose_places(
     found = np.zeros((before + n + after, 2))
     for i in range(n):
         found[before + i, 0] = k + COARSE * i
+    ends = ends_of(ladder)
     # 2. Places and directions; then finer ones around these.
     half, step, apart = FAN, STEP, COARSE / 2.0
     for level in range(LEVELS + 1):
         fans = open_fans(
             ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
         )
-        most, total = np.inf, rungs[lap, TAU]
+        most = np.inf
         if level == 0:
             some = middle_of_fans(fans, LIKELY)
-            way, most = cheapest_way(some, (before, after), wanted, total, periods, most)
+            way, most = cheapest_way(some, (before, after), wanted, ends, periods, most)
             most *= 1.0 + EQUAL
-        way, _ = cheapest_way(fans, (before, after), wanted, total, periods, most)
+        way, _ = cheapest_way(fans, (before, after), wanted, ends, periods, most)
         k = way.shape[0] - before - after
         if k < 1:
             return np.empty((0, 2))
