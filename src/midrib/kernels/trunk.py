@@ -24,14 +24,16 @@ from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import (
+    FARTHER,
     Beads,
     find_sleeve,
+    locate_beside,
     locate_from,
     new_search,
     pull_tight,
     walk,
 )
-from midrib.kernels.probes import apart_of, point_beside
+from midrib.kernels.probes import apart_of, is_between_lines, point_beside
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.turns import opposite_middle_turn, opposite_wall
 from midrib.kernels.ways import Stops, is_of_main, level_beads, shores_outside, stops_on_way
@@ -171,15 +173,18 @@ def trace(
     goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
     count, t, none = 0, -1, np.empty(0, np.intp)
     px, py = 0.0, 0.0
-    for k in range(stops.at.size):
-        qx, qy, i = stops.point[k, 0], stops.point[k, 1], stops.at[k]
+    # Fields taken out once: each access to one of a tuple counts references.
+    stop_point, stop_at, stop_near = stops.point, stops.at, stops.nearest
+    origin, side, vertex, latest = beads.origin, beads.side, beads.vertex, banks.last
+    for k in range(stop_at.size):
+        qx, qy, i = stop_point[k, 0], stop_point[k, 1], stop_at[k]
         if i < 0:
             end, i = -1 - i, n
         else:
-            end, qx, qy = locate_from(
-                mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
-                qx, qy, t, search,
-            )  # fmt: skip
+            ox, oy = origin[i, 0], origin[i, 1]
+            end, qx, qy = locate_beside(mesh, side[i], vertex[i], ox, oy, qx, qy, t)
+            if end == FARTHER:
+                end, qx, qy = locate_from(mesh, side[i], ox, oy, qx, qy, search)
         is_end = ends.are_given and i in (0, n - 1)
         is_repeat = t >= 0 and is_near(qx, qy, px, py, apart, scale_x, scale_y)
         hides = not is_end and (is_repeat or is_before_end(ends, qx * scale_x, qy * scale_y))
@@ -187,7 +192,7 @@ def trace(
             continue
         goal[0, 0], goal[0, 1] = qx, qy
         goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
-        goal_near[0, 0], goal_near[0, 1] = stops.nearest[k, 0], stops.nearest[k, 1]
+        goal_near[0, 0], goal_near[0, 1] = stop_near[k, 0], stop_near[k, 1]
         waiting = 1
         while waiting > 0:
             # 1. A point between, if the way to the next one is not good enough.
@@ -204,9 +209,13 @@ def trace(
                             look_everywhere(banks)  # ends are off the trunk
                         else:
                             look_between(banks, p_near, goal_near[top])
-                        between, mx, my = point_beside(
-                            mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
-                        )
+                        if not is_between_lines(
+                            banks, p_near, goal_near[top], px * scale_x, py * scale_y,
+                            qx * scale_x, qy * scale_y, tolerance,
+                        ):  # fmt: skip
+                            between, mx, my = point_beside(
+                                mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
+                            )
                 else:
                     before_wall, end = end, goal_at[top, 0]
                     sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
@@ -228,7 +237,7 @@ def trace(
                     goal[waiting, 0], goal[waiting, 1] = mx, my
                     goal_at[waiting, 0], goal_at[waiting, 1] = between, n
                     goal_at[waiting, 2] = depth + 1
-                    goal_near[waiting, 0], goal_near[waiting, 1] = banks.last[0], banks.last[1]
+                    goal_near[waiting, 0], goal_near[waiting, 1] = latest[0], latest[1]
                     waiting += 1
                     continue
             else:
