@@ -106,7 +106,7 @@ def trace_wider(
     apart = apart_of(banks, tolerance)
     is_main = root[shores.loop] == MAIN
     near = np.zeros((n, 2), np.intp)
-    level_beads(banks, beads, near, points, first, every_bead, scale_x, scale_y)
+    level_beads(banks, beads, near, points, at, first, every_bead, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)
