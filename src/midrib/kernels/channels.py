@@ -34,8 +34,9 @@ from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.probes import apart_of
+from midrib.kernels.tracing import trace
 from midrib.kernels.triangulation import next_side
-from midrib.kernels.trunk import SHARE_OF_SLACK, trace
+from midrib.kernels.trunk import SHARE_OF_SLACK
 from midrib.kernels.ways import Stops, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
