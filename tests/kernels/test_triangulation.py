@@ -12,8 +12,10 @@ from hypothesis import strategies as st
 from shapely import LineString, Polygon, affinity, box
 
 from midrib.kernels.mesh import Mesh
+from midrib.kernels.triangulation import BLOCK, coarse_to_fine
 from midrib.layout import Boundary, boundary_of
 from midrib.ragged import rings_of_area
+from tests.kernels.calling import callable_from_python
 from tests.shapes import VALID, annulus_sector, stadium
 from tests.strategies import areas, with_holes
 
@@ -221,3 +223,16 @@ def test_straight_banks_get_no_fans_of_slivers(turn: float) -> None:
     area = shapely.segmentize(box(0, 0, 400, 40), 0.1)
     _, mesh = mesh_of(affinity.rotate(area, turn, origin=(0, 0), use_radians=True))
     assert np.bincount(mesh.tri).max() <= 16
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 5, 8, 33, 100, BLOCK + 1, 4 * BLOCK, 5 * BLOCK + 7])
+def test_vertices_go_in_coarse_to_fine(n: int) -> None:
+    order, stride = callable_from_python(coarse_to_fine)(n)
+    assert sorted(order) == list(range(n))
+    when = np.empty(n, int)
+    when[order] = np.arange(n)
+    for p in range(1, n):
+        step = min(p & -p, stride)
+        assert when[p - step] < when[p]
+        if step < stride and p + step < n:
+            assert when[p + step] < when[p]

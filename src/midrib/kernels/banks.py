@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from midrib.kernels.boxtree import DEPTH, box_tree
-from midrib.kernels.chain import TIE_OF_COORDINATE, Chain
+from midrib.kernels.chain import TIE_OF_COORDINATE, TIE_OF_RADIUS, Chain
 from midrib.kernels.clearance import nearest_in_run, nearest_of
 from midrib.kernels.islands import Loops
 from midrib.kernels.jit import njit
@@ -37,6 +37,7 @@ __all__ = [
     "level_between",
     "level_from",
     "level_where_straight",
+    "look_beside",
     "look_between",
     "look_everywhere",
     "way_from_nearer",
@@ -162,6 +163,22 @@ def look_between(banks: Banks, first: Ints, last: Ints) -> None:
         banks.window[k, 1] = max(first[k], last[k]) + 2
     banks.window[0, 1] = min(banks.window[0, 1], banks.main.x.size - 1)
     banks.window[1, 1] = min(banks.window[1, 1], banks.auxiliary.x.size - 1)
+
+
+@njit(borrows=True)
+def look_beside(banks: Banks, j: int, px: float, py: float, radius: float) -> None:
+    """Let only the auxiliary segment j and those beside it be nearest, if it is nearest to p.
+
+    Then so it is to all points between p and its point so far away: circles around them that
+    reach that point are inside the one around p.
+    """
+    bank = banks.auxiliary
+    look_everywhere(banks)
+    if not banks.is_windowed:
+        return
+    _, _, squared = nearest_of(px, py, bank.x, bank.y, bank.goes_on, bank.boxes, j, banks.stack)
+    if squared >= radius * radius * (1.0 - TIE_OF_RADIUS):
+        banks.window[1, 0], banks.window[1, 1] = max(j - 1, 0), min(j + 2, bank.x.size - 1)
 
 
 @njit(borrows=True)

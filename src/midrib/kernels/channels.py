@@ -34,8 +34,9 @@ from midrib.kernels.landings import land, take_off
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.probes import apart_of
+from midrib.kernels.tracing import trace
 from midrib.kernels.triangulation import next_side
-from midrib.kernels.trunk import SHARE_OF_SLACK, trace
+from midrib.kernels.trunk import SHARE_OF_SLACK
 from midrib.kernels.ways import Stops, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
@@ -106,7 +107,7 @@ def trace_wider(
     apart = apart_of(banks, tolerance)
     is_main = root[shores.loop] == MAIN
     near = np.zeros((n, 2), np.intp)
-    level_beads(banks, beads, near, points, first, every_bead, scale_x, scale_y)
+    level_beads(banks, beads, near, points, at, first, every_bead, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = stops_on_way(mesh, main, banks, beads, near, is_main, is_trimmed, scale_x, scale_y)
     before = np.full((2, 2), np.nan)

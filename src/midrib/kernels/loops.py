@@ -49,10 +49,14 @@ def last_meetings(path: Floats) -> Ints:
     n = path.shape[0] - 1
     along = 0 if np.ptp(path[:, 0]) >= np.ptp(path[:, 1]) else 1
     low, high = np.empty(n), np.empty(n)
+    ascending, descending = 0, 0
     for i in range(n):
         a, b = path[i, along], path[i + 1, along]
         low[i], high[i] = min(a, b), max(a, b)
+        ascending, descending = ascending + (a < b), descending + (a > b)
     last = np.full(n, -1, np.intp)
+    if n in (ascending, descending):
+        return last  # it never turns back, so nothing meets
     # Segments in the order of their lower ends, by a heap.
     waiting, n_waiting = np.empty(n, np.intp), 0
     for i in range(n):

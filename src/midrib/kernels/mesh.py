@@ -101,11 +101,16 @@ def is_beyond(mesh: Mesh, e: int, px: float, py: float) -> bool:
 @njit(borrows=True)
 def contains(mesh: Mesh, t: int, px: float, py: float) -> bool:
     """Whether the closed triangle t holds p, exactly."""
-    return not (
-        is_beyond(mesh, 3 * t, px, py)
-        or is_beyond(mesh, 3 * t + 1, px, py)
-        or is_beyond(mesh, 3 * t + 2, px, py)
-    )
+    return side_before(mesh, t, px, py) < 0
+
+
+@njit(borrows=True)
+def side_before(mesh: Mesh, t: int, px: float, py: float) -> int:
+    """Return a side of triangle t that has p beyond it; -1 if the closed triangle holds p."""
+    for e in range(3 * t, 3 * t + 3):
+        if is_beyond(mesh, e, px, py):
+            return e
+    return -1
 
 
 @njit(borrows=True)
@@ -114,7 +119,8 @@ def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float,
 
     The first of a series of points towards the middle of t; only rounding is made good.
     """
-    if contains(mesh, t, px, py):
+    e = side_before(mesh, t, px, py)
+    if e < 0:
         return px, py, True
     a, b, c = mesh.tri[3 * t], mesh.tri[3 * t + 1], mesh.tri[3 * t + 2]
     middle_x = mesh.x[a] + ((mesh.x[b] - mesh.x[a]) + (mesh.x[c] - mesh.x[a])) / 3.0
@@ -125,8 +131,10 @@ def pull_inside(mesh: Mesh, t: int, px: float, py: float) -> tuple[float, float,
         qx, qy = px + (middle_x - px) * share, py + (middle_y - py) * share
         if abs(qx - px) + abs(qy - py) > reach:
             break
-        if (qx != px or qy != py) and contains(mesh, t, qx, qy):
-            return qx, qy, True
+        if (qx != px or qy != py) and not is_beyond(mesh, e, qx, qy):
+            e = side_before(mesh, t, qx, qy)
+            if e < 0:
+                return qx, qy, True
         share *= 2.0
     return px, py, False
 

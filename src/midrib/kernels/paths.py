@@ -29,16 +29,21 @@ from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
 __all__ = [
+    "FARTHER",
     "Beads",
     "Search",
     "find_sleeve",
     "join_points",
+    "locate_beside",
     "locate_from",
     "new_search",
     "pull_tight",
     "triangle_towards",
     "walk",
 ]
+
+
+FARTHER = -2  # what is looked for is not where it should be
 
 
 class Beads(NamedTuple):
@@ -273,8 +278,8 @@ def nearest_triangle(mesh: Mesh, qx: float, qy: float) -> tuple[int, float, floa
     return best, best_x, best_y
 
 
-@njit()
-def locate_from(
+@njit(borrows=True)
+def locate_beside(
     mesh: Mesh,
     side: int,
     vertex: int,
@@ -283,12 +288,11 @@ def locate_from(
     qx: float,
     qy: float,
     near: int,
-    search: Search,
 ) -> tuple[int, float, float]:
     """Return the triangle that holds q, seen from p on ``side`` (or at ``vertex``).
 
-    Q may be pulled inside by rounding's width, in triangle ``near`` for one. -1 if q is farther
-    outside.
+    Q may be pulled inside by rounding's width, in triangle ``near`` for one. FARTHER if it is in
+    none of those: then ``locate_from`` searches for it.
     """
     t = side // 3 if vertex < 0 else triangle_towards(mesh, vertex, qx, qy)
     if vertex < 0 and is_beyond(mesh, side, px, py):
@@ -310,6 +314,17 @@ def locate_from(
             x, y, is_inside = pull_inside(mesh, t, qx, qy)
             if is_inside:
                 return t, x, y
+    return FARTHER, qx, qy
+
+
+@njit()
+def locate_from(
+    mesh: Mesh, side: int, px: float, py: float, qx: float, qy: float, search: Search
+) -> tuple[int, float, float]:
+    """Return the triangle that holds q, searched for from p on ``side`` on.
+
+    Q may be pulled inside by rounding's width. -1 if q is farther outside.
+    """
     t = side // 3
     sleeve = find_sleeve(mesh, t, -1, px, py, qx, qy, search)
     if sleeve.size > 0:
@@ -353,17 +368,10 @@ def join_points(mesh: Mesh, beads: Beads, scale_x: float, scale_y: float) -> tup
         if t >= 0:
             end, obstacle = walk(mesh, t, -1, from_x, from_y, qx, qy)
         if obstacle != -1:
-            end, qx, qy = locate_from(
-                mesh,
-                beads.side[i],
-                beads.vertex[i],
-                beads.origin[i, 0],
-                beads.origin[i, 1],
-                qx,
-                qy,
-                end,
-                search,
-            )
+            side, ox, oy = beads.side[i], beads.origin[i, 0], beads.origin[i, 1]
+            end, qx, qy = locate_beside(mesh, side, beads.vertex[i], ox, oy, qx, qy, end)
+            if end == FARTHER:
+                end, qx, qy = locate_from(mesh, side, ox, oy, qx, qy, search)
             if end < 0:
                 continue
             if t >= 0:

@@ -20,8 +20,9 @@ from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import walk
+from midrib.types import Ints
 
-__all__ = ["apart_of", "point_beside"]
+__all__ = ["apart_of", "is_between_lines", "point_beside"]
 
 PROBES_PER_WIDTH = 4.0
 MOST_PROBES = 16
@@ -31,6 +32,7 @@ ARC = 1e-4  # of the width: how far from arcs the line may be where it is to be 
 BESIDE = 2.0**-6  # of a way: how far from its ends the level line is looked at
 CROWDED = 2.0**-3  # of a way: a point so near to an end of it hardly divides it
 TIED = 2.0**-20  # relative: a probe that is farther off by less is no farther but for rounding
+SURELY = 0.5  # of the tolerance: what is off by less stays so whatever is rounded
 NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
@@ -38,6 +40,42 @@ NOWHERE = Lean(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 def apart_of(banks: Banks, tolerance: float) -> float:
     """How near to each other two points of the trunk are one."""
     return APART * tolerance if tolerance > 0.0 else SAME * banks.slack
+
+
+@njit(borrows=True)
+def is_between_lines(
+    banks: Banks,
+    first: Ints,
+    last: Ints,
+    px: float,
+    py: float,
+    qx: float,
+    qy: float,
+    tolerance: float,
+) -> bool:
+    """Whether the straight way from p to q is level because it runs between the same two segments.
+
+    With both feet inside one segment of either bank, so has all that lies between p and q: the
+    lean is linear, and where it is next to none at p and at q no probe can be off. A third of all
+    probes need not be made in areas of 100 vertices.
+    """
+    if not banks.is_windowed or first[0] != last[0] or first[1] != last[1]:
+        return False
+    lean_p, lean_q = 0.0, 0.0
+    for k in range(2):
+        j, bank = first[k], banks.main if k == 0 else banks.auxiliary
+        ax, ay = bank.x[j], bank.y[j]
+        dx, dy = bank.x[j + 1] - ax, bank.y[j + 1] - ay
+        squared = dx * dx + dy * dy
+        along_p, along_q = (px - ax) * dx + (py - ay) * dy, (qx - ax) * dx + (qy - ay) * dy
+        off_p, off_q = (px - ax) * dy - (py - ay) * dx, (qx - ax) * dy - (qy - ay) * dx
+        is_inside = min(along_p, along_q) > 0.0 and max(along_p, along_q) < squared
+        if not (is_inside and off_p * off_q > 0.0):
+            return False
+        sign = 1.0 if k == 0 else -1.0
+        lean_p += sign * abs(off_p) / np.sqrt(squared)
+        lean_q += sign * abs(off_q) / np.sqrt(squared)
+    return max(abs(lean_p), abs(lean_q)) < SURELY * tolerance
 
 
 @njit(borrows=True)
@@ -156,8 +194,10 @@ def worst_probe(
         if k >= probes:
             share = BESIDE if k == probes else 1.0 - BESIDE
         x, y = px + share * (qx - px), py + share * (qy - py)
-        lean = lean_at(banks, x, y)
         k += 1
+        if 2 * k == probes + 1 > 2:
+            continue  # the first one has been there
+        lean = lean_at(banks, x, y)
         if k == probes == 1:
             # The first probe, in the middle, says how many it takes.
             wanted = np.ceil(PROBES_PER_WIDTH * span / (lean.to_main + lean.to_auxiliary))

@@ -70,8 +70,11 @@ def draw_radii(
     n = points.shape[0]
     found, at, total = np.empty((n + 8, 6)), np.empty((n + 8, 6), np.intp), 0
     goal = goal_of(mesh, auxiliary, scale_x, scale_y)
+    # Fields taken out once: each access to one of a tuple counts references.
     vertex, side, arc = auxiliary
+    x, y, goal_x, goal_y, boxes = mesh.x, mesh.y, goal.x, goal.y, goal.boxes
     view = new_view()
+    nodes = view.nodes
     reach, seen = np.inf, np.inf  # how far the nearest point at all is, and the nearest one seen
     for i in range(n):
         spot = spot_at(mesh, points[i, 0], points[i, 1], p_side[i], p_vertex[i])
@@ -88,15 +91,15 @@ def draw_radii(
         j, share, kind, squared, is_tie = nearest_on_chain(
             spot.x * scale_x,
             spot.y * scale_y,
-            goal.x,
-            goal.y,
+            goal_x,
+            goal_y,
             arc,
-            goal.boxes,
+            boxes,
             low[i],
             high[i],
             reach,
             goal.tie if reach == np.inf else slack_of(goal.tie, reach),
-            view.nodes,
+            nodes,
         )
         reach = np.sqrt(squared)
         if j < 0:
@@ -105,8 +108,8 @@ def draw_radii(
             room = 2 * found.shape[0]
             found, at = with_rows(found, room), with_rows(at, room)
         a, b = vertex[j], vertex[j + 1]
-        qx = mesh.x[b] if share == 1.0 else mesh.x[a] + share * (mesh.x[b] - mesh.x[a])
-        qy = mesh.y[b] if share == 1.0 else mesh.y[a] + share * (mesh.y[b] - mesh.y[a])
+        qx = x[b] if share == 1.0 else x[a] + share * (x[b] - x[a])
+        qy = y[b] if share == 1.0 else y[a] + share * (y[b] - y[a])
         if not is_tie and side[j] >= 0 and sees(mesh, spot, side[j], qx, qy):
             at_vertex = a if share == 0.0 else b if share == 1.0 else -1
             at_arc = arc[j + 1] if share == 1.0 else arc[j] + share * (arc[j + 1] - arc[j])

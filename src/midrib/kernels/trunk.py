@@ -14,34 +14,23 @@ probe that is farthest off is moved onto the trunk and becomes a point of the li
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, banks_of, look_between, look_everywhere
+from midrib.kernels.banks import banks_of
 from midrib.kernels.chain import Chain
-from midrib.kernels.glide import Ends, ends_of, is_before_end
+from midrib.kernels.glide import ends_of
 from midrib.kernels.islands import has_islands, loops_of, no_loops
 from midrib.kernels.jit import njit
 from midrib.kernels.joining import Joined, cut_all_loops, join_beads, string_beads
 from midrib.kernels.landings import land, take_off
-from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
-from midrib.kernels.paths import (
-    Beads,
-    find_sleeve,
-    locate_from,
-    new_search,
-    pull_tight,
-    walk,
-)
-from midrib.kernels.probes import apart_of, point_beside
-from midrib.kernels.tables import with_places, with_rows
-from midrib.kernels.turns import opposite_middle_turn, opposite_wall
+from midrib.kernels.paths import Beads
+from midrib.kernels.probes import apart_of
+from midrib.kernels.tracing import trace
 from midrib.kernels.ways import Stops, is_of_main, level_beads, shores_outside, stops_on_way
 from midrib.types import Floats, Ints
 
-__all__ = ["SHARE_OF_SLACK", "trace", "trace_trunk"]
+__all__ = ["SHARE_OF_SLACK", "trace_trunk"]
 
 SHARE_OF_SLACK = 2.0**-24  # of the tolerance: what points of the trunk may be off it
-DEPTH = 16  # halvings of the way between two radii
-BACK = 0.25  # tangent of what is left of a half turn where a path comes back on itself
 
 
 @njit(entry=True)
@@ -93,7 +82,8 @@ def trace_trunk(
     banks = banks_of(mesh, main, auxiliary, loops, slack, scale_x, scale_y)
     apart = apart_of(banks, tolerance)
     near = np.zeros((beads.side.size, 2), np.intp)  # segments of both banks, nearest to each bead
-    level_beads(banks, beads, near, points, first, every_bead or not with_islands, scale_x, scale_y)
+    is_every = every_bead or not with_islands
+    level_beads(banks, beads, near, points, at, first, is_every, scale_x, scale_y)
     ends = ends_of(banks, beads, near, end.shape[0] > 0, apart, scale_x, scale_y)
     stops = Stops(beads.point[kept], kept, near[kept])
     if with_islands:
@@ -143,148 +133,3 @@ def beads_in_order(arc: Floats, first: int, n: int) -> Ints:
     if ends > 0:
         kept[0], kept[longest + 1] = 0, n - 1
     return kept
-
-
-@njit()
-def trace(
-    mesh: Mesh,
-    banks: Banks,
-    beads: Beads,
-    stops: Stops,
-    ends: Ends,
-    tolerance: float,
-    apart: float,
-    scale_x: float,
-    scale_y: float,
-) -> tuple[Floats, Ints]:
-    """Return the path from bead to bead, and the bead or (-1 - v) mesh vertex that each point is.
-
-    One past the beads for a point between.
-    """
-    n = beads.side.size
-    search = new_search(mesh, scale_x, scale_y)
-    path, source = np.empty((4 * n + 16, 2)), np.empty(4 * n + 16, np.intp)
-    # Of each point of the path its triangle, or -1, and the segments of its feet on both banks.
-    inside, feet = np.empty(4 * n + 16, np.intp), np.empty((4 * n + 16, 2), np.intp)
-    # Points still to be reached, the next one last: x, y; triangle, source, depth.
-    goal, goal_at = np.empty((DEPTH + 4, 2)), np.empty((DEPTH + 4, 3), np.intp)
-    goal_near, p_near = np.empty((DEPTH + 4, 2), np.intp), np.zeros(2, np.intp)
-    count, t, none = 0, -1, np.empty(0, np.intp)
-    px, py = 0.0, 0.0
-    for k in range(stops.at.size):
-        qx, qy, i = stops.point[k, 0], stops.point[k, 1], stops.at[k]
-        if i < 0:
-            end, i = -1 - i, n
-        else:
-            end, qx, qy = locate_from(
-                mesh, beads.side[i], beads.vertex[i], beads.origin[i, 0], beads.origin[i, 1],
-                qx, qy, t, search,
-            )  # fmt: skip
-        is_end = ends.are_given and i in (0, n - 1)
-        is_repeat = t >= 0 and is_near(qx, qy, px, py, apart, scale_x, scale_y)
-        hides = not is_end and (is_repeat or is_before_end(ends, qx * scale_x, qy * scale_y))
-        if end < 0 or hides:
-            continue
-        goal[0, 0], goal[0, 1] = qx, qy
-        goal_at[0, 0], goal_at[0, 1], goal_at[0, 2] = end, i, 0
-        goal_near[0, 0], goal_near[0, 1] = stops.nearest[k, 0], stops.nearest[k, 1]
-        waiting = 1
-        while waiting > 0:
-            # 1. A point between, if the way to the next one is not good enough.
-            top = waiting - 1
-            qx, qy, depth = goal[top, 0], goal[top, 1], goal_at[top, 2]
-            turns = none
-            if t >= 0:
-                end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
-                between = -1
-                mx, my = 0.0, 0.0
-                if obstacle == -1:
-                    if depth < DEPTH:
-                        if ends.are_given and (count == 1 or goal_at[top, 1] == n - 1):
-                            look_everywhere(banks)  # ends are off the trunk
-                        else:
-                            look_between(banks, p_near, goal_near[top])
-                        between, mx, my = point_beside(
-                            mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
-                        )
-                else:
-                    before_wall, end = end, goal_at[top, 0]
-                    sleeve = find_sleeve(mesh, t, end, px, py, qx, qy, search)
-                    turns = pull_tight(mesh, sleeve, px, py, qx, qy)
-                    look_everywhere(banks)
-                    if depth < DEPTH:
-                        between, mx, my = opposite_middle_turn(
-                            mesh, banks, turns, px, py, qx, qy, scale_x, scale_y
-                        )
-                        if between < 0 and obstacle >= 0:
-                            between, mx, my = opposite_wall(
-                                mesh, banks, before_wall, obstacle, px, py, qx, qy, scale_x, scale_y
-                            )
-                is_old = is_near(mx, my, px, py, apart, scale_x, scale_y) or is_near(
-                    mx, my, qx, qy, apart, scale_x, scale_y
-                )
-                if between >= 0 and not is_old:
-                    goal_at[top, 2] = depth + 1
-                    goal[waiting, 0], goal[waiting, 1] = mx, my
-                    goal_at[waiting, 0], goal_at[waiting, 1] = between, n
-                    goal_at[waiting, 2] = depth + 1
-                    goal_near[waiting, 0], goal_near[waiting, 1] = banks.last[0], banks.last[1]
-                    waiting += 1
-                    continue
-            else:
-                end = goal_at[top, 0]
-            # 2. Where the path comes back on itself, it had better not gone there: it goes on from
-            #    the point before, and the way from there is probed anew.
-            before = count - 2
-            is_back = turns.size == 0 and turns_back(path, count, qx, qy, scale_x, scale_y)
-            if is_back and inside[before] >= 0:
-                x, y = path[before, 0], path[before, 1]
-                _, obstacle = walk(mesh, inside[before], -1, x, y, qx, qy)
-                if obstacle == -1:
-                    count, t, px, py = count - 1, inside[before], x, y
-                    p_near[0], p_near[1] = feet[before, 0], feet[before, 1]
-                    goal_at[top, 2] = min(depth + 1, DEPTH)
-                    is_last = ends.are_given and goal_at[top, 1] == n - 1
-                    if not is_last and is_near(qx, qy, x, y, apart, scale_x, scale_y):
-                        waiting -= 1
-                    continue
-            # 3. The point itself, by the turns at walls if there are any.
-            waiting -= 1
-            if count + turns.size + 1 > source.size:
-                room = 2 * (count + turns.size + 1)
-                path, source = with_rows(path, room), with_places(source, room)
-                inside, feet = with_places(inside, room), with_rows(feet, room)
-            for v in turns:
-                if mesh.x[v] != path[count - 1, 0] or mesh.y[v] != path[count - 1, 1]:
-                    path[count, 0], path[count, 1], source[count] = mesh.x[v], mesh.y[v], -1 - v
-                    inside[count] = -1
-                    count += 1
-            if count == 0 or qx != path[count - 1, 0] or qy != path[count - 1, 1]:
-                path[count, 0], path[count, 1], source[count] = qx, qy, goal_at[top, 1]
-                feet[count, 0], feet[count, 1] = goal_near[top, 0], goal_near[top, 1]
-                inside[count] = end
-                count += 1
-            t, px, py = end, qx, qy
-            p_near[0], p_near[1] = goal_near[top, 0], goal_near[top, 1]
-    return path[:count], source[:count]
-
-
-@njit(borrows=True)
-def turns_back(
-    path: Floats, count: int, x: float, y: float, scale_x: float, scale_y: float
-) -> bool:
-    """Whether a path of so many points that goes on to (x, y) turns back at its last point."""
-    if count < 2:
-        return False
-    ux, uy = path[count - 1, 0] - path[count - 2, 0], path[count - 1, 1] - path[count - 2, 1]
-    vx, vy = x - path[count - 1, 0], y - path[count - 1, 1]
-    ux, uy, vx, vy = ux * scale_x, uy * scale_y, vx * scale_x, vy * scale_y
-    return abs(ux * vy - uy * vx) <= BACK * -(ux * vx + uy * vy)
-
-
-@njit(borrows=True)
-def is_near(
-    px: float, py: float, qx: float, qy: float, slack: float, scale_x: float, scale_y: float
-) -> bool:
-    """Whether two points are nearer than what the trunk's points may be off."""
-    return length((qx - px) * scale_x, (qy - py) * scale_y) <= slack

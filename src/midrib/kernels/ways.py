@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, level_between
+from midrib.kernels.banks import Banks, level_between, look_beside, look_everywhere
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import AUXILIARY, MAIN, Loops, owners, side_length
 from midrib.kernels.jit import njit
@@ -47,6 +47,7 @@ def level_beads(
     beads: Beads,
     near: Ints,
     points: Floats,
+    at: Ints,
     first: int,
     every_one: bool,
     scale_x: float,
@@ -58,12 +59,12 @@ def level_beads(
     """
     step = 1 if every_one else max(points.shape[0] - 1, 1)
     for i in range(0, points.shape[0], step):
-        x, y, _ = level_between(
-            banks, points[i, 0] * scale_x, points[i, 1] * scale_y,
-            points[i, 2] * scale_x, points[i, 3] * scale_y, 0.5,
-        )  # fmt: skip
+        px, py = points[i, 0] * scale_x, points[i, 1] * scale_y
+        look_beside(banks, at[i, 3], px, py, points[i, 5])
+        x, y, _ = level_between(banks, px, py, points[i, 2] * scale_x, points[i, 3] * scale_y, 0.5)
         beads.point[first + i, 0], beads.point[first + i, 1] = x / scale_x, y / scale_y
         near[first + i, 0], near[first + i, 1] = banks.last[0], banks.last[1]
+    look_everywhere(banks)
 
 
 @njit()
