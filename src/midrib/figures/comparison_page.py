@@ -30,6 +30,7 @@ svg {{ width: 100%; height: auto; }}
 table {{ border-collapse: collapse; }}
 th, td {{ padding: .3em .8em; border-bottom: 1px solid #ccc; text-align: right; }}
 th:first-child, td:first-child, td:last-child {{ text-align: left; }}
+td:first-child {{ white-space: nowrap; }}
 th {{ cursor: pointer; }} th:hover {{ text-decoration: underline; }}
 </style></head><body><h1>{title}</h1>
 {figure}
