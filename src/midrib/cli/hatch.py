@@ -111,6 +111,9 @@ def hatch(
     for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
+    if not slopes and not problems:  # which is no failure: a register may hold none
+        report.say("note: IN has no slopes; those that have ended come with --history")
+        return
     if not drawing.has_symbols:
         report.say(f"nothing is drawn: {why_nothing(drawing, standard)}")
     if drawing.n_refused or not drawing.has_symbols:
@@ -149,8 +152,6 @@ def why_nothing(drawing: "Drawing", standard: str) -> str:
     from midrib.formats.drawing.content import LEFT_OUT
     from midrib.hatching.standards import standards_named
 
-    if not drawing.objects and not drawing.problems:
-        return "IN has no slopes; those that have ended come with --history"
     if any(trouble.kind == LEFT_OUT for trouble in drawing.problems) and not drawing.objects:
         kinds = dict.fromkeys(kind for known in standards_named(standard) for kind in known.kinds)
         return (
