@@ -100,6 +100,27 @@ def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runne
     assert "is in another CRS than IN" in outcome.err
 
 
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [(("hatch", "a.gpkg"), "--top"), (("check",), "--top"), (("check",), "--strokes")],
+)
+def test_lines_in_another_crs_are_refused(
+    command: tuple[str, ...], option: str, tmp_path: Path, midrib: Runner
+) -> None:
+    source = tmp_path / "in.gpkg"
+    areas = gpd.GeoSeries.from_wkt(AREAS, crs="EPSG:2178")
+    gpd.GeoDataFrame({"top": TOPS}, geometry=areas).to_file(source, layer="slopes")
+    lines = gpd.GeoSeries.from_wkt(TOPS, crs="EPSG:2180")
+    gpd.GeoDataFrame(geometry=lines).to_file(source, layer="lines")
+    places = [tmp_path / name for name in command[1:]]
+    top = ["--top", "lines" if option == "--top" else "top"]
+    strokes = ["--strokes", "lines"] if option == "--strokes" else []
+    outcome = midrib(command[0], source, *places, "--layer", "slopes", *top, *strokes)
+    assert outcome.code == 2
+    sentence = "is in another CRS than IN, ETRF2000-PL / CS92, expected the same: ETRF2000-PL"
+    assert sentence in " ".join(outcome.err.split())
+
+
 def test_a_spacing_of_ones_own_is_not_bounded_by_the_standard(
     slopes: Path, tmp_path: Path, midrib: Runner
 ) -> None:

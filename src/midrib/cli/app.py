@@ -116,8 +116,10 @@ app.command(
     help="Check slopes before they are hatched: a table of what is wrong with them, and where.\n\n"
     "refused: no slope, for want of a top, an area or good coordinates; swapped: the top is lower "
     "than the toe, by known heights; off-ring: an edge, its start or its end is off the boundary; "
-    "orientation: doubtful which edge is the top; unmatched: strokes are left out, or there is "
-    "none, in some place; crossing: strokes of --strokes cross or lie on each other.\n\n"
+    "orientation: doubtful which edge is the top; pieces: the top is stored in pieces; pairs: "
+    "doubtful which top goes with which toe; unmatched: strokes are left out, or there is none, in "
+    "some place; beyond: strokes exceed a bound there; crossing: strokes of --strokes cross or lie "
+    "on each other.\n\n"
     "Exit code 0: nothing found; 1: something found; 2: wrong usage.",
     epilog="Examples:\n\nmidrib check BDOT500.gml -o findings.gpkg --figure findings.svg\n\n"
     "midrib check slopes.gpkg --layer slope --top crest:slope_id --strokes hatching\n\n"

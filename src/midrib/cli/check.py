@@ -40,10 +40,11 @@ def check(
         report.say(f"note: {len(ended)} slopes have ended, --history checks them")
     report.announce()
     interrupts.start_work()
+    crs = slopes[0].crs if slopes else None
     findings = check_slopes(
         slopes,
         problems,
-        strokes=() if strokes is None else drawn_strokes(strokes, source),
+        strokes=() if strokes is None else drawn_strokes(strokes, source, crs),
         standard=standard,
         scale=scale,
         metres_per_unit=metres_per_unit(slopes),

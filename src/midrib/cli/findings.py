@@ -22,7 +22,7 @@ from midrib.formats.contents import layer_names, listed
 from midrib.formats.gml import namespaces
 from midrib.formats.reading import Geometries, open_layer
 from midrib.formats.slopes import DRAWING, XML
-from midrib.formats.units import is_geographic, unit_of
+from midrib.formats.units import check_same_plane, is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged
 from midrib.hatching.checking import Finding
 
@@ -153,13 +153,13 @@ def metres_per_unit(slopes: "Sequence[Slope]") -> float:
     return 1.0 if unit is None else unit.metres
 
 
-def drawn_strokes(strokes: str, source: Path) -> Geometries:
+def drawn_strokes(strokes: str, source: Path, crs: str | None) -> Geometries:
     """Read strokes from a layer of IN, or from another file or a layer of it.
 
     Raises
     ------
     ParameterError
-        If there is no such layer or file.
+        If there is no such layer or file, or it is in another CRS than the slopes.
     """
     file, _, layer = strokes.rpartition(":")
     if Path(strokes).exists():
@@ -180,6 +180,7 @@ def drawn_strokes(strokes: str, source: Path) -> Geometries:
         msg = f"--strokes is {strokes!r}, which holds {kind}, expected lines"
         raise ParameterError(msg)
     with open_layer(path, layer) as features:
+        check_same_plane(features.crs, crs, f"--strokes {strokes!r}")
         parts = [shapely.get_parts(batch.geometries) for batch in features.batches()]
     lines: Geometries = np.concatenate(parts)
     return lines

@@ -7,7 +7,6 @@ import typer
 
 from midrib.cli import options as cli
 from midrib.cli.options import DrawingRule, SharedEdges, StartSide
-from midrib.errors import ParameterError
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -137,12 +136,10 @@ def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
 
     from midrib.formats.contents import choose_layer
     from midrib.formats.reading import open_layer
-    from midrib.formats.units import is_same_plane
+    from midrib.formats.units import check_same_plane
 
     with open_layer(path, choose_layer(path, None, "--exclude")) as source:
-        if not is_same_plane(source.crs, crs):
-            msg = f"--exclude {str(path)!r} is in another CRS than IN, expected the same"
-            raise ParameterError(msg)
+        check_same_plane(source.crs, crs, f"--exclude {str(path)!r}")
         features = [geometry for batch in source.batches() for geometry in batch.geometries]
     return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 

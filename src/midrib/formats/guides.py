@@ -14,11 +14,12 @@ from midrib.errors import ParameterError
 from midrib.formats.contents import layer_names, listed
 from midrib.formats.reading import open_layer
 from midrib.formats.tops import joined_tops
+from midrib.formats.units import check_same_plane
 
 if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Geometries, Source
 
-__all__ = ["Guides", "guides_for"]
+__all__ = ["Guides", "check_layer", "guides_for"]
 
 SAMPLES = 17  # places of a line at which its distance to an area is measured
 SAME_DISTANCE = 1e-6  # areas whose mean distance differs by less, in line lengths, share a line
@@ -60,6 +61,7 @@ def guides_for(main: str | None, path: Path, source: "Source", option: str = "--
         return NoGuides()
     layers, fields = layer_names(path), source.attributes.names
     if main in layers and main != source.layer:
+        check_layer(path, main, source, option)
         return PlacedGuides(all_geometries(path, source.layer), lines_of(path, main))
     layer, _, identifier = main.rpartition(":")
     if layer in layers:
@@ -69,6 +71,7 @@ def guides_for(main: str | None, path: Path, source: "Source", option: str = "--
                 f"{listed(fields)}"
             )
             raise ParameterError(msg)
+        check_layer(path, layer, source, option)
         return KeyedGuides(identifier, lines_by_key(path, layer, identifier, option))
     if main in fields:
         return FieldGuides(main)
@@ -78,6 +81,18 @@ def guides_for(main: str | None, path: Path, source: "Source", option: str = "--
         f"or a field of layer {source.layer!r} ({listed(fields)})"
     )
     raise ParameterError(msg)
+
+
+def check_layer(path: Path, layer: str, source: "Source", option: str) -> None:
+    """Refuse a layer in another plane than the areas of a source.
+
+    Raises
+    ------
+    ParameterError
+        If both CRS are known and are not the same.
+    """
+    with open_layer(path, layer) as other:
+        check_same_plane(other.crs, source.crs, f"{option} {layer!r}")
 
 
 class NoGuides(Guides):

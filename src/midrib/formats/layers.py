@@ -19,9 +19,10 @@ from midrib.formats.contents import (
     may_hold_areas,
 )
 from midrib.formats.gathering import Gathered, check_area
-from midrib.formats.guides import guides_for
+from midrib.formats.guides import check_layer, guides_for
 from midrib.formats.pairs import add_pairs
 from midrib.formats.reading import open_layer
+from midrib.formats.units import check_same_plane
 from midrib.hatching.slope import Slope, SlopeError, SlopeKind, SlopeProblem
 
 if TYPE_CHECKING:
@@ -127,7 +128,8 @@ def add_lines(found: Gathered, path: Path, hints: Hints) -> None:
             msg = f"{name} is {layer!r}, expected a layer of IN {str(path)!r}: {listed(layers)}"
             raise ParameterError(msg)
         with open_layer(path, layer) as source:
-            crs = source.crs
+            check_same_plane(source.crs, crs, f"{name} {layer!r}")
+            crs = source.crs or crs
             parts = shapely.get_parts([g for b in source.batches() for g in b.geometries if g])
         lines[name] = [p for p in parts if isinstance(p, LineString) and p.length > 0.0]
     add_pairs(found, lines["top"], lines["toe"], path.stem, crs)
@@ -261,6 +263,7 @@ def points_for(text: str, option: str, path: Path, source: "Source") -> Points:
         ]
     layer, _, key = text.rpartition(":")
     if layer in layers and key in fields:
+        check_layer(path, layer, source, option)
         points = points_by_key(path, layer, key)
         return lambda batch: [[*points[value]] for value in batch.attributes[key].to_pylist()]
     msg = (

@@ -14,6 +14,7 @@ __all__ = [
     "METRE",
     "METRES",
     "Unit",
+    "check_same_plane",
     "is_geographic",
     "is_same_plane",
     "is_wgs84",
@@ -132,6 +133,20 @@ def is_same_plane(crs: str | None, other: str | None) -> bool:
     if found.get("id") and expected.get("id"):
         return bool(found["id"] == expected["id"])
     return bool(found.get("name") == expected.get("name"))
+
+
+def check_same_plane(crs: str | None, other: str | None, what: str) -> None:
+    """Refuse what lies in another plane than the areas of IN.
+
+    Raises
+    ------
+    ParameterError
+        If both systems are known and are not the same.
+    """
+    if not is_same_plane(crs, other):
+        names = [str(horizontal(one).get("name", "unknown")) for one in (crs, other)]
+        msg = f"{what} is in another CRS than IN, {names[0]}, expected the same: {names[1]}"
+        raise ParameterError(msg)
 
 
 def is_wgs84(crs: str) -> bool:
