@@ -173,6 +173,35 @@ def test_where_rings_touch_a_disc_meets_the_corner_that_it_is_in(angle: int) -> 
     checked(area)
 
 
+NARROW = {
+    "a_step": (
+        33.75,
+        "POLYGON ((1 9, 2 9, 3 9, 4 9, 4 8, 3 8, 3 7, 2 7, 1 7, 0 7, 0.5 7.5, 0 8, 1 8, 1 9), "
+        "(1.9999999999983127 7.999999999994474, 2.499999999998313 7.499999999994474, "
+        "2.999999999998313 7.999999999994474, 1.9999999999983127 7.999999999994474))",
+    ),
+    "two_holes": (
+        0.0,
+        "POLYGON ((0 3, 0 4, 0.5 3.5, 1 4, 1 3, 1.5 2.5, 2 3, 2.5 2.5, 3 3, 3 2, 3 1, 2.5 1.5, "
+        "2 1, 1.5 0.5, 2 0, 1 0, 0 0, 0 1, 0 2, 0 3), (0.9999999999961652 1.9999999999981828, "
+        "0.9999999999961652 0.9999999999981828, 1.4999999999961653 1.4999999999981828, "
+        "0.9999999999961652 1.9999999999981828), (1.4255425330476384e-12 2.0000000000019256, "
+        "1.0000000000014255 2.0000000000019256, 0.5000000000014255 2.5000000000019256, "
+        "1.4255425330476384e-12 2.0000000000019256))",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(NARROW))
+def test_a_cut_of_a_gap_of_billionths_stays_inside(name: str) -> None:
+    """What reaches into a disc as far as this gap is wide is no rounding."""
+    angle, text = NARROW[name]
+    area = rotate(shapely.from_wkt(text), angle, origin=(0, 0))
+    mesh = boundary_of(*rings_of_area(area)).mesh
+    assert medial_axis(mesh, 1.0, 1.0, 1e-3)[0]
+    checked(area)
+
+
 def test_a_turned_mesh_is_turned_back_with_its_vertices_bit_by_bit() -> None:
     mesh = boundary_of(*rings_of_area(VALID["comb"])).mesh
     for angle, scale in ((1.0, np.array([1.0, 1.0])), (5.0, np.array([0.5, 2.0]))):
