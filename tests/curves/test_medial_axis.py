@@ -162,12 +162,44 @@ COURTS = (
 )
 
 
-def test_an_axis_that_rounding_loses_is_found_of_the_turned_area() -> None:
-    area = rotate(shapely.from_wkt(COURTS), 0.2, origin=(0, 0))
-    mesh = boundary_of(*rings_of_area(area)).mesh
-    assert not medial_axis(mesh, 1.0, 1.0, 1e-3)[0]
+@pytest.mark.parametrize("angle", range(0, 90, 3))
+def test_where_rings_touch_a_disc_meets_the_corner_that_it_is_in(angle: int) -> None:
+    """Turned by 0.2 to 12 and by 60 to 88 degrees, half a turn at a touch is a bit less."""
+    straight = shapely.from_wkt(COURTS)
+    for tenth in range(0, 30, 2):
+        area = rotate(straight, angle + tenth / 10.0, origin=(0, 0))
+        mesh = boundary_of(*rings_of_area(area)).mesh
+        assert medial_axis(mesh, 1.0, 1.0, 1e-3)[0], angle + tenth / 10.0
     checked(area)
-    checked(translate(area, 5e5, 5e6))
+
+
+NARROW = {
+    "a_step": (
+        33.75,
+        "POLYGON ((1 9, 2 9, 3 9, 4 9, 4 8, 3 8, 3 7, 2 7, 1 7, 0 7, 0.5 7.5, 0 8, 1 8, 1 9), "
+        "(1.9999999999983127 7.999999999994474, 2.499999999998313 7.499999999994474, "
+        "2.999999999998313 7.999999999994474, 1.9999999999983127 7.999999999994474))",
+    ),
+    "two_holes": (
+        0.0,
+        "POLYGON ((0 3, 0 4, 0.5 3.5, 1 4, 1 3, 1.5 2.5, 2 3, 2.5 2.5, 3 3, 3 2, 3 1, 2.5 1.5, "
+        "2 1, 1.5 0.5, 2 0, 1 0, 0 0, 0 1, 0 2, 0 3), (0.9999999999961652 1.9999999999981828, "
+        "0.9999999999961652 0.9999999999981828, 1.4999999999961653 1.4999999999981828, "
+        "0.9999999999961652 1.9999999999981828), (1.4255425330476384e-12 2.0000000000019256, "
+        "1.0000000000014255 2.0000000000019256, 0.5000000000014255 2.5000000000019256, "
+        "1.4255425330476384e-12 2.0000000000019256))",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", sorted(NARROW))
+def test_a_cut_of_a_gap_of_billionths_stays_inside(name: str) -> None:
+    """What reaches into a disc as far as this gap is wide is no rounding."""
+    angle, text = NARROW[name]
+    area = rotate(shapely.from_wkt(text), angle, origin=(0, 0))
+    mesh = boundary_of(*rings_of_area(area)).mesh
+    assert medial_axis(mesh, 1.0, 1.0, 1e-3)[0]
+    checked(area)
 
 
 def test_a_turned_mesh_is_turned_back_with_its_vertices_bit_by_bit() -> None:

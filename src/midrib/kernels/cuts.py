@@ -24,7 +24,7 @@ from midrib.kernels.bisectors import BETWEEN_WALLS, Bisector, centre, first_met
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.walls import NO_CORNER, REFLEX, Walls
+from midrib.kernels.walls import CONVEX, REFLEX, Walls
 from midrib.types import Floats, Ints
 
 __all__ = ["Cuts", "cuts_of", "place_on"]
@@ -74,20 +74,44 @@ def along_site(w: Walls, site: int, x: float, y: float) -> float:
 
 
 @njit(borrows=True)
+def corner_towards(w: Walls, k: int, x: float, y: float) -> int:
+    """Return the corner that (x, y) is seen in from the point where wall k starts.
+
+    Where rings touch there are several; the way to (x, y) is followed clockwise by the wall that
+    starts in its own.
+    """
+    corner, least, j = k, np.inf, k
+    for _ in range(w.x.size):
+        if w.beside[k] == k:
+            break
+        dx, dy = x - w.x[j], y - w.y[j]
+        angle = np.arctan2(w.ux[j] * dy - w.uy[j] * dx, w.ux[j] * dx + w.uy[j] * dy)
+        angle += 2.0 * np.pi if angle < 0.0 else 0.0
+        if angle < least:
+            corner, least = j, angle
+        j = w.beside[j]
+        if j == k:
+            break
+    return corner
+
+
+@njit(borrows=True)
 def place_on(w: Walls, wall: int, x: float, y: float) -> tuple[int, float]:
     """Return the place where a disc about (x, y) touches a wall.
 
-    At an end that is on the corner there, or, where rounding has met the one for the other, on
-    the other wall of this corner.
+    At an end that is on the corner that the disc is in, or, where rounding has met the one for the
+    other, on a wall of this corner.
     """
-    along, corner = ahead_of(w, wall, x, y), NO_CORNER
+    along = ahead_of(w, wall, x, y)
     if along <= 0.0:
-        corner = w.corner[wall]
+        corner = corner_towards(w, wall, x, y)
     elif along >= ahead_of(w, wall, w.x[wall + 1], w.y[wall + 1]):
-        corner = w.corner[wall + 1]
-    if corner == NO_CORNER:
+        corner = corner_towards(w, w.following[wall], x, y)
+    else:
         return wall, along
     before = w.preceding[corner]
+    if w.bend[corner] == CONVEX and wall in (before, corner):
+        return wall, along
     past_end = ahead_of(w, before, x, y) - ahead_of(w, before, w.x[corner], w.y[corner])
     site = w.x.size + corner
     if ahead_of(w, corner, x, y) > 0.0 or w.bend[corner] != REFLEX:
@@ -103,7 +127,7 @@ def farthest_corners(w: Walls, corner: Ints) -> int:
     farthest, shell = -np.inf, -1
     for loop in range(w.first.size):
         best, k = -np.inf, w.first[loop]
-        corner[loop] = NO_CORNER
+        corner[loop] = -1
         while w.is_wall[k]:
             far = SEEN_X * w.x[k] + SEEN_Y * w.y[k]
             if far > farthest:
@@ -165,7 +189,7 @@ def cuts_of(w: Walls) -> tuple[bool, Cuts]:
         if loop == shell:
             continue
         k = corner[loop]
-        if k == NO_CORNER:
+        if k < 0:
             return False, c
         growing = Bisector(BETWEEN_WALLS, w.x[k], w.y[k], SEEN_X, SEEN_Y, 0.0, 1.0, 0.0)
         stop, met = first_met(w, growing, k, 2.0 * w.extent)

@@ -21,9 +21,8 @@ from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.predicates import orient
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["CONVEX", "NO_CORNER", "REFLEX", "Walls", "sharpest", "walls_of"]
+__all__ = ["CONVEX", "REFLEX", "Walls", "sharpest", "walls_of"]
 
-NO_CORNER = -1
 CONVEX, FLAT, REFLEX = 1, 0, -1
 
 
@@ -34,8 +33,7 @@ class Walls(NamedTuple):
     ux, uy      direction
     vertex      of the mesh, where each starts
     following, preceding
-    corner      the wall that starts from the same point where the inside has half a turn or more,
-                or NO_CORNER
+    beside      the next wall that starts from the same point, round and round all of them
     bend        of the corner where it starts: CONVEX, FLAT or REFLEX
     loop        its loop
     first       the first wall of each loop
@@ -52,7 +50,7 @@ class Walls(NamedTuple):
     vertex: Ints
     following: Ints
     preceding: Ints
-    corner: Ints
+    beside: Ints
     bend: Ints
     loop: Ints
     first: Ints
@@ -94,7 +92,7 @@ def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
     n = side.size + loops
     x, y, ux, uy = np.empty(n), np.empty(n), np.zeros(n), np.zeros(n)
     vertex, following, preceding = np.empty(n, np.intp), np.empty(n, np.intp), np.empty(n, np.intp)
-    corner, loop, first = np.full(n, NO_CORNER), np.empty(n, np.intp), np.empty(loops, np.intp)
+    beside, loop, first = np.arange(n), np.empty(n, np.intp), np.empty(loops, np.intp)
     is_wall, bend = np.ones(n, np.bool_), np.zeros(n, np.intp)
     origin = mesh.tri[side[0]]
     for ring in range(loops):
@@ -110,20 +108,20 @@ def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
             dx, dy = x[k + 1] - x[k], y[k + 1] - y[k]
             size = length(dx, dy)
             ux[k], uy[k] = dx / size, dy / size
-    wide = np.full(mesh.x.size, NO_CORNER)
+    start_of = np.full(mesh.x.size, -1)
     for k in range(n):
         if is_wall[k]:
             a, b, c = vertex[preceding[k]], vertex[k], vertex[k + 1]
             turn = orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], mesh.x[c], mesh.y[c])
             bend[k] = CONVEX if turn > 0.0 else (REFLEX if turn < 0.0 else FLAT)
-            if turn <= 0.0:  # of the corners at one point only one can have half a turn
-                wide[b] = k
-    for k in range(n):
-        corner[k] = wide[vertex[k]]
+            other = start_of[b]
+            if other >= 0:
+                beside[k], beside[other] = beside[other], k
+            start_of[b] = k
     boxes = box_tree(x, y)
     extent = length(boxes[1, 2] - boxes[1, 0], boxes[1, 3] - boxes[1, 1])
     return Walls(
-        x, y, ux, uy, vertex, following, preceding, corner, bend, loop, first, is_wall,
+        x, y, ux, uy, vertex, following, preceding, beside, bend, loop, first, is_wall,
         boxes, np.empty(DEPTH, np.intp), extent,
     )  # fmt: skip
 
