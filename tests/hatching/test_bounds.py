@@ -13,7 +13,7 @@ from shapely.affinity import translate
 
 from midrib import Hatching, Strip, hatch
 from midrib.errors import MidribError
-from midrib.hatching.measures import measure, untold
+from midrib.hatching.measures import measure, measure_strokes, untold
 from tests.hatching.slopes import annulus, bands, lens, rectangle, rings, trapezium
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -154,8 +154,29 @@ def test_no_stroke_is_taken_where_the_one_before_allows_it_first(
     assert hatching.spacing.max() <= ratio * hatching.spacing.min()
 
 
-def test_a_tip_without_strokes_is_told() -> None:
+def test_only_a_tip_that_has_room_for_strokes_is_told() -> None:
     hatching = hatch(lens(1.0), scale=2000)
-    told = [problem for problem in hatching.problems if "the slope's end is" in problem.reason]
-    assert len(told) == 2
-    assert all("narrower than the shortest stroke" in problem.reason for problem in told)
+    found = measure(hatching)
+    assert found.end_gap > 1.5
+    assert hatching.problems == found.beyond == []
+    rows = slice(1, None)
+    fewer = measure_strokes(
+        hatching.strip, hatching.rule, LineString([(0, 0), (100, 0)]), hatching.strokes[rows],
+        hatching.is_long[rows], hatching.on_top[rows], hatching.on_toe[rows],
+    )  # fmt: skip
+    assert ["the slope's end is" in one.reason for one in fewer.beyond] == [True]
+
+
+@pytest.mark.parametrize("beyond", [0.1, 0.4, 1.0, 3.0])
+def test_what_nobody_sees_is_no_problem(beyond: float) -> None:
+    """Two strokes of a wide slope that turn by so many degrees more than they may."""
+    strip = rectangle(400.0, 10.0)
+    hatching = hatch(strip)
+    on_top, on_toe = hatching.on_top.copy(), hatching.on_toe.copy()
+    on_toe[40, 0] += 10.0 * np.tan(np.radians(10.0 + beyond))
+    found = measure_strokes(
+        strip, hatching.rule, LineString([(0, 5), (400, 5)]), hatching.strokes,
+        hatching.is_long, on_top, on_toe,
+    )  # fmt: skip
+    leaning = [one for one in found.beyond if "off the normals" in one.reason]
+    assert len(leaning) == (beyond > 0.5)

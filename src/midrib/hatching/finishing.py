@@ -83,6 +83,7 @@ def finish(
     share = np.where(is_long, 1.0, short)
     if curves is not None:
         shorten(drawn, kept & is_long, gap, share, strip.is_closed, problems)
+    if curves is not None and kept.any():
         edges, side = (curves.top, curves.toe), LONGEST_SIDE * float(np.mean(drawn.local))
         for bare in bare_stretches(edges, rule, drawn.feet[kept], gap[kept], least, side):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
@@ -280,8 +281,7 @@ def beyond_bounds(
     )
     missing = (np.roll(rows, -1) - rows - 1) % max(kept.size, 1)
     found = [one for one in excesses(laid) if missing[one.row] == 0]
-    narrow = drawn.station[drawn.kept & (np.hypot(*(drawn.on_toe - drawn.on_top).T) < least)]
-    found += far_ends(laid, offset, narrow, least)
+    found += far_ends(laid, offset, least)
     return [Problem(one.where, one.reason, "beyond") for one in found]
 
 
