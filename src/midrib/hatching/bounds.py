@@ -171,7 +171,7 @@ class Excess(NamedTuple):
 
 
 def excesses(laid: Laid) -> list[Excess]:
-    """Places where neighbours, or strokes by themselves, visibly exceed a bound, in order; O(n + m).
+    """Places where neighbours, or strokes by themselves, visibly exceed a bound; O(n + m).
 
     The search for better strokes keeps to the bounds themselves.
     """
@@ -208,8 +208,8 @@ def far_ends(laid: Laid, offset: float = 1.0, least: float = 0.0) -> list[Excess
         return []
     most, found = most_at_ends(offset), []
     nearest = (int(np.argmin(laid.station)), int(np.argmax(laid.station)))
-    for end, away, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
-        if away <= most * (1.0 + UNSEEN):
+    for end, whole, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
+        if whole <= most * (1.0 + UNSEEN):
             continue
         at = laid.station[row]
         away = roomy(laid.curves, at, middle.length if end else 0.0, least) / laid.asked[row]
