@@ -183,3 +183,14 @@ def test_what_nobody_sees_is_no_problem(beyond: float) -> None:
     )  # fmt: skip
     leaning = [one for one in found.beyond if "off the normals" in one.reason]
     assert len(leaning) == (beyond > 0.5)
+
+
+@pytest.mark.parametrize(("outer", "inner"), [(25.0, 6.0), (25.0, 3.0), (12.0, 3.0)])
+def test_half_a_ring_has_strokes_along_its_radii_and_no_problem(outer: float, inner: float) -> None:
+    turned = np.linspace(np.pi, 0.0, 90)
+    unit = np.column_stack([np.cos(turned), np.sin(turned)])
+    hatching = hatch(Strip(LineString(outer * unit), LineString(inner * unit)), scale=500)
+    assert not hatching.problems
+    stroke, radius = hatching.on_toe - hatching.on_top, -hatching.on_top
+    cosine = (stroke * radius).sum(axis=1) / np.hypot(*stroke.T) / np.hypot(*radius.T)
+    assert np.degrees(np.arccos(cosine)).max() < 10.0

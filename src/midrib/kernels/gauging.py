@@ -29,7 +29,8 @@ CORNER = 1.5  # lengths of stroke to either side, over which the middle line may
 STRAIGHT = np.pi / 18.0  # 10 degrees: an edge that turns less within two widths has no corner there
 MOST_TILT = np.pi / 18.0  # 10 degrees from the normal, where both edges are straight and parallel
 MOST_LEAN = np.pi / 7.2  # 25 degrees beyond all normals of the straighter edge, anywhere else
-SHORTEST_CHORD = 0.25  # widths: shorter ends of an edge have no direction
+SHORTEST_CHORD = 0.25  # of a chord: shorter ends of an edge have no direction
+FEWEST_CHORDS = 8.0  # of an edge
 NEAR_END, SIDE = 2.0, np.pi / 3.0  # widths from an end; 60 degrees between a side and an edge
 PLACES = (-1.5, -0.75, 0.0, 0.75, 1.5)  # widths from an end, where directions over a width are told
 
@@ -90,13 +91,20 @@ def is_straight(course: Course, station: float, width: float) -> bool:
 
 @njit(borrows=True)
 def spread(course: Course, station: float, width: float) -> tuple[float, float]:
-    """Middle of the directions of a course within two widths of a station, and half their range."""
+    """Middle of the directions of a course within two widths of a station, and half their range.
+
+    They are told over a width, and over an eighth of a course that is shorter than eight: one chord
+    of half a ring would be a straight edge.
+    """
     low, high, first = np.inf, -np.inf, np.nan
-    for k in range(-2, 2):
-        start, stop = station + k * width, station + (k + 1) * width
+    total = course.arc[course.arc.size - 1]
+    chord = min(width, total / FEWEST_CHORDS)
+    reach = int(np.ceil(2.0 * width / chord))
+    for k in range(-reach, reach):
+        start, stop = station + k * chord, station + (k + 1) * chord
         if not course.is_closed:
-            start, stop = max(start, 0.0), min(stop, course.arc[course.arc.size - 1])
-        if stop - start < SHORTEST_CHORD * width:
+            start, stop = max(start, 0.0), min(stop, total)
+        if stop - start < SHORTEST_CHORD * chord:
             continue
         ax, ay = place_on(course, start)
         bx, by = place_on(course, stop)
