@@ -5,6 +5,7 @@ an edge the local width is the distance to the other edge, and the gap is what t
 there. The way along the edge to the nearest stroke's end, in such gaps, tells how bare it is. Where
 the nearest point of the other edge is next to its end, one of both is a side of the slope, if it is
 short: no stroke belongs there. Near the end of an edge the gap is that of a place within its own.
+Runs shorter than their own gap are none.
 
 edge   --x-----x----o    o    o----x-----     x  ends of strokes
                     |<- bare ->|              o  places farther than ``FAR`` gaps from all of them
@@ -27,7 +28,7 @@ FAR = 1.75  # gaps along an edge from a place to the next stroke: twice what bou
 STEPS = 4.0  # places for each least gap
 MOST_PLACES = 20_000
 LEAST_WIDTH = 0.5  # least gaps: where slopes are narrower there is hardly room for a stroke
-SIDE = 0.5  # of the width: if the nearest place of the other edge is as near to its end
+SIDE = 0.58  # of the width: if the nearest place of the other edge is as near to its end
 LONGEST_SIDE = 2.0  # mean widths
 NEAR = 1.0  # local gaps between a bare run and a problem that explains it
 
@@ -69,6 +70,8 @@ def bare_runs(hatching: Hatching) -> list[BareRun]:
             is_bare &= ~is_side | (np.minimum(at, edge.length - at) > longest)
         turn = np.flatnonzero(np.diff(np.concatenate([[0], is_bare, [0]])))
         for low, high in turn.reshape(-1, 2).tolist():
+            if (high - low) * (at[1] - at[0]) < gap[low:high].min():
+                continue
             worst = low + int(np.argmax((away / gap)[low:high]))
             stop = max(at[high - 1], at[low] + edge.length / (10.0 * count))
             line = shapely.ops.substring(edge, at[low], stop)

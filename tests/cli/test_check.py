@@ -42,8 +42,8 @@ def test_findings_are_a_table_and_code_1(midrib: Runner, faulty: Path) -> None:
     assert lines[2][:2] == ["topless", "refused"]
     assert lines[3][:4] == ["doubtful", "orientation", "6481004.000", "5616000.000"]
     assert "start is no vertex of the boundary" in outcome.out
-    assert lines[4][:2] == ["doubtful", "unmatched"]  # as midrib hatch draws it
-    assert "findings: 3, 1 refused, 1 orientation, 1 unmatched" in midrib("check", faulty).err
+    assert lines[4][:2] == ["doubtful", "beyond"]  # as midrib hatch draws it
+    assert "findings: 3, 1 refused, 1 orientation, 1 beyond" in midrib("check", faulty).err
 
 
 @pytest.mark.parametrize("ending", ["csv", "geojson", "gpkg", "parquet", "shp"])
@@ -69,7 +69,7 @@ def test_geojson_is_json(midrib: Runner, faulty: Path, tmp_path: Path) -> None:
     midrib("check", faulty, "-o", tmp_path / "out.json")
     features = json.loads((tmp_path / "out.json").read_text())["features"]
     checks = [feature["properties"]["check"] for feature in features]
-    assert checks == ["refused", "orientation", "unmatched"]
+    assert checks == ["refused", "orientation", "beyond"]
 
 
 def test_history_is_checked_when_asked_for(midrib: Runner, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from shapely.affinity import translate
 
 from midrib import Hatching, Strip, hatch
 from midrib.errors import MidribError
-from midrib.hatching.measures import measure, untold
+from midrib.hatching.measures import measure, measure_strokes, untold
 from tests.hatching.slopes import annulus, bands, lens, rectangle, rings, trapezium
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
@@ -106,7 +106,7 @@ def test_real_slopes_keep_bounds_or_say_so() -> None:
         beyond += sum("end is" not in one.reason for one in found.beyond)
         turned = Strip(shapely.reverse(slope.strip.main), slope.strip.auxiliary, slope.strip.area)
         assert moved_by(hatching, hatch(turned)) <= 1e-6, slope.name
-    assert beyond <= 20
+    assert beyond <= 12  # seen to be true, one by one
 
 
 @pytest.mark.parametrize(("strip", "gap"), [(rectangle(100.0, 10.0), 5.0), (trapezium(), None)])
@@ -125,19 +125,21 @@ def test_strokes_of_a_small_mound_are_apart_all_the_way_round(radius: float, is_
     plain = annulus(radius, 12.0)
     hatching = hatch(Strip(plain.auxiliary, plain.main) if is_pit else plain)
     found = measure(hatching)
-    assert found.least_foot >= 0.25 * (1.0 - 1e-6)
+    assert len(hatching.strokes) >= 4
+    assert found.least_foot >= 0.25 * (1.0 - 1e-6) or radius < 1.0
     assert not untold(hatching, found)
     missing = [problem for problem in hatching.problems if problem.kind == "missing"]
     assert is_pit or len(hatching.strokes) % 2 == 0 or missing
 
 
-def test_thinned_out_strokes_are_even() -> None:
-    hatching = hatch(annulus(1.0, 12.0))
-    assert len(hatching.strokes) == 4
+@pytest.mark.parametrize(("radius", "count"), [(0.2, 6), (0.3, 6), (0.7, 4), (1.0, 4)])
+def test_thinned_out_strokes_are_even(radius: float, count: int) -> None:
+    hatching = hatch(annulus(radius, 12.0))
+    assert len(hatching.strokes) == count
     for ends in (hatching.on_top, hatching.on_toe):
         angle = np.sort(np.arctan2(*ends.T[::-1]) % (2.0 * np.pi))
         around = np.append(np.diff(angle), angle[0] + 2.0 * np.pi - angle[-1])
-        assert around == pytest.approx(np.full(4, np.pi / 2.0), abs=1e-3)
+        assert around == pytest.approx(np.full(count, 2.0 * np.pi / count), abs=0.01)
     assert (hatching.is_long != np.roll(hatching.is_long, 1)).all()
 
 
@@ -154,8 +156,41 @@ def test_no_stroke_is_taken_where_the_one_before_allows_it_first(
     assert hatching.spacing.max() <= ratio * hatching.spacing.min()
 
 
-def test_a_tip_without_strokes_is_told() -> None:
+def test_only_a_tip_that_has_room_for_strokes_is_told() -> None:
     hatching = hatch(lens(1.0), scale=2000)
-    told = [problem for problem in hatching.problems if "the slope's end is" in problem.reason]
-    assert len(told) == 2
-    assert all("narrower than the shortest stroke" in problem.reason for problem in told)
+    found = measure(hatching)
+    assert found.end_gap > 1.5
+    assert not hatching.problems
+    assert not found.beyond
+    rows = slice(1, None)
+    fewer = measure_strokes(
+        hatching.strip, hatching.rule, LineString([(0, 0), (100, 0)]), hatching.strokes[rows],
+        hatching.is_long[rows], hatching.on_top[rows], hatching.on_toe[rows],
+    )  # fmt: skip
+    assert ["the slope's end is" in one.reason for one in fewer.beyond] == [True]
+
+
+@pytest.mark.parametrize("beyond", [0.1, 0.4, 1.0, 3.0])
+def test_what_nobody_sees_is_no_problem(beyond: float) -> None:
+    """Two strokes of a wide slope that turn by so many degrees more than they may."""
+    strip = rectangle(400.0, 10.0)
+    hatching = hatch(strip)
+    on_top, on_toe = hatching.on_top.copy(), hatching.on_toe.copy()
+    on_toe[40, 0] += 10.0 * np.tan(np.radians(10.0 + beyond))
+    found = measure_strokes(
+        strip, hatching.rule, LineString([(0, 5), (400, 5)]), hatching.strokes,
+        hatching.is_long, on_top, on_toe,
+    )  # fmt: skip
+    leaning = [one for one in found.beyond if "off the normals" in one.reason]
+    assert len(leaning) == (beyond > 0.5)
+
+
+@pytest.mark.parametrize(("outer", "inner"), [(25.0, 6.0), (25.0, 3.0), (12.0, 3.0)])
+def test_half_a_ring_has_strokes_along_its_radii_and_no_problem(outer: float, inner: float) -> None:
+    turned = np.linspace(np.pi, 0.0, 90)
+    unit = np.column_stack([np.cos(turned), np.sin(turned)])
+    hatching = hatch(Strip(LineString(outer * unit), LineString(inner * unit)), scale=500)
+    assert not hatching.problems
+    stroke, radius = hatching.on_toe - hatching.on_top, -hatching.on_top
+    cosine = (stroke * radius).sum(axis=1) / np.hypot(*stroke.T) / np.hypot(*radius.T)
+    assert np.degrees(np.arccos(cosine)).max() < 10.0

@@ -21,7 +21,7 @@ FAR = 1.75  # gaps along the edge from the next stroke: more than at any corner,
 AT_END = 0.75  # gaps from the end of an edge to the first stroke: beyond that it is looked at
 STEPS_PER_GAP = 4.0
 MOST_STEPS = 100_000
-SIDE = 0.5  # cotangent of the angle at an end of an edge from which on the other one is a side
+SIDE = 0.58  # cotangent of 60 degrees: at such an end of an edge and wider the other is a side
 
 
 class Bare(NamedTuple):
@@ -51,7 +51,8 @@ def bare_stretches(
     list of Bare
         O(n log n) where no stretch may be bare, and O(m k) for m places on those that may be and an
         edge of k vertices. Where the nearest point of the other edge is next to its end, one of
-        both is a side of the slope, or runs on past the other: no stroke belongs there.
+        both is a side of the slope, or runs on past the other: no stroke belongs there. Shorter
+        stretches than the rule's own gap are none.
     """
     if not len(feet):
         return []
@@ -77,7 +78,9 @@ def bare_stretches(
                 is_side = np.minimum(on, facing.length - on) <= SIDE * width
                 is_bare &= ~is_side | (np.minimum(places, edge.length - places) > side)
             for first, last in runs(is_bare):
-                found.append(Bare(points[(first + last) // 2], (last - first + 1) * apart, name))
+                length = (last - first + 1) * apart
+                if length >= asked[first : last + 1].min():
+                    found.append(Bare(points[(first + last) // 2], length, name))
     return found
 
 

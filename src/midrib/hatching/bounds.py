@@ -4,7 +4,8 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from shapely import Point
+import shapely
+from shapely import LineString, Point
 
 from midrib.hatching.chains import Chain
 from midrib.kernels.gauging import (
@@ -28,7 +29,9 @@ __all__ = ["Curves", "Excess", "Laid", "excesses", "far_ends", "most_at_ends"]
 SPACING = (0.8, 1.25)  # gaps between neighbours on the middle line
 EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, and straight
 END_GAP = 1.5  # gaps from the ends of the middle line
+TIP_PLACES = 65  # between an end and the next stroke, where the width is told
 ROUNDING = 1e-6  # relative
+UNSEEN, UNSEEN_TURN = 0.02, np.radians(0.5)  # nobody sees gaps or directions that are so little off
 TEXTS = {
     STEP: f"neighbours are {{:.2f}} times the rule's gap apart, {SPACING[0]:g} to {SPACING[1]:g} "
     "wanted",
@@ -168,11 +171,16 @@ class Excess(NamedTuple):
 
 
 def excesses(laid: Laid) -> list[Excess]:
-    """Places where neighbours, or strokes by themselves, exceed a bound, in order; O(n + m)."""
+    """Places where neighbours, or strokes by themselves, visibly exceed a bound; O(n + m).
+
+    The search for better strokes keeps to the bounds themselves.
+    """
     n, pivots = laid.station.size, laid.curves.middle.at(laid.station)
-    found = []
-    for row in np.flatnonzero(laid.beyond.any(axis=1)).tolist():
-        columns = np.flatnonzero(laid.beyond[row]).tolist()
+    unseen = np.full(laid.beyond.shape[1], UNSEEN)
+    unseen[[TURN, NORMAL]] = UNSEEN_TURN
+    is_seen, found = laid.beyond > unseen, []
+    for row in np.flatnonzero(is_seen.any(axis=1)).tolist():
+        columns = np.flatnonzero(is_seen[row]).tolist()
         values = laid.gauged[row].copy()
         values[[TURN, ALLOWED, LEAN]] = np.degrees(values[[TURN, ALLOWED, LEAN]])
         values[NORMAL], most = laid.tilts[row], {TURN: values[ALLOWED], NORMAL: values[LEAN]}
@@ -189,25 +197,33 @@ def most_at_ends(offset: float) -> float:
     return END_GAP * max(offset, 1.0)
 
 
-def far_ends(
-    laid: Laid, offset: float = 1.0, narrow: Floats | None = None, least: float = 0.0
-) -> list[Excess]:
+def far_ends(laid: Laid, offset: float = 1.0, least: float = 0.0) -> list[Excess]:
     """Find ends of the middle line that are too far from the next stroke.
 
-    ``offset`` is how many gaps it should be. At ``narrow`` stations there would be strokes shorter
-    than the ``least`` one.
+    ``offset`` is how many gaps it should be. What is narrower than the ``least`` stroke at an end
+    is a tip in which none has room, and does not count.
     """
     middle = laid.curves.middle
     if middle.is_closed or not laid.station.size:
         return []
     most, found = most_at_ends(offset), []
     nearest = (int(np.argmin(laid.station)), int(np.argmax(laid.station)))
-    for end, away, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
-        if away <= most * (1.0 + ROUNDING):
+    for end, whole, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
+        if whole <= most * (1.0 + UNSEEN):
             continue
         at = laid.station[row]
+        away = roomy(laid.curves, at, middle.length if end else 0.0, least) / laid.asked[row]
+        if away <= most * (1.0 + UNSEEN):
+            continue
         reason = f"the slope's end is {away:.1f} gaps from a stroke, {most:.3g} at most wanted"
-        if narrow is not None and (narrow > at if end else narrow < at).any():
-            reason += f": it is narrower than the shortest stroke, {least:.3g}, there"
         found.append(Excess(row, Point((middle.points[end] + middle.at(at)) / 2.0), reason))
     return found
+
+
+def roomy(curves: Curves, start: float, end: float, least: float) -> float:
+    """Length of the middle line, from a station towards an end, until only a narrow tip is left."""
+    at = np.linspace(start, end, TIP_PLACES)
+    points = shapely.points(curves.middle.at(at))
+    off = [shapely.distance(points, LineString(edge.points)) for edge in (curves.top, curves.toe)]
+    wide = np.flatnonzero(2.0 * np.maximum(*off) >= least)
+    return float(abs(at[wide[-1]] - start)) if wide.size else 0.0

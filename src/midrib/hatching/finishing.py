@@ -20,6 +20,7 @@ __all__ = ["Finished", "Problem", "finish", "islands_of", "lines_of", "zones_of"
 TINY, LARGEST = 2.0**-1000, 2.0**1000
 LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other
 MANY = 0.25  # of strokes of a closed slope: if so many are too near, all are thinned out
+FEWEST = 2  # patterns that stay even so: a mound with a stroke on one side only is none
 
 
 class Problem(NamedTuple):
@@ -83,6 +84,7 @@ def finish(
     share = np.where(is_long, 1.0, short)
     if curves is not None:
         shorten(drawn, kept & is_long, gap, share, strip.is_closed, problems)
+    if curves is not None and kept.any():
         edges, side = (curves.top, curves.toe), LONGEST_SIDE * float(np.mean(drawn.local))
         for bare in bare_stretches(edges, rule, drawn.feet[kept], gap[kept], least, side):
             reason = f"the {bare.edge} has no stroke for {bare.length:.3g} here"
@@ -154,20 +156,27 @@ def too_near(
 def evenly(points: Floats, kept: Bools, gap: Floats, period: int) -> Ints:
     """Most strokes of a closed slope in whole patterns, as even as can be, that are far enough.
 
-    None if few of them are near: then the others should stay as they are.
+    Two patterns at least, however near. None if few of them are near: then the others should stay
+    as they are.
     """
     rows = np.flatnonzero(kept)
     ahead = np.roll(rows, -1)
     steps = np.hypot(*(points[ahead] - points[rows]).T)
     if np.mean(steps < LEAST_FOOT * (gap[ahead] + gap[rows]) / 2.0) < MANY:
         return rows[:0]
-    for count in range(rows.size // period * period, 0, -period):
-        chosen = rows[np.arange(count) * rows.size // count]
+    counts = range(rows.size // period * period, (FEWEST - 1) * period, -period)
+    for count in counts:
+        chosen = every(rows, count)
         some = np.zeros(kept.size, dtype=np.bool_)
         some[chosen] = True
         if are_apart(points, some, gap, True):
             return chosen
-    return rows[:0]
+    return every(rows, min((n for n in counts if rows.size % n == 0), default=rows.size))
+
+
+def every(rows: Ints, count: int) -> Ints:
+    """So many rows, as even as can be."""
+    return rows[np.arange(count) * rows.size // count]
 
 
 def one_by_one(points: Floats, rows: Ints, gap: Floats, is_closed: bool) -> Ints:
@@ -280,8 +289,7 @@ def beyond_bounds(
     )
     missing = (np.roll(rows, -1) - rows - 1) % max(kept.size, 1)
     found = [one for one in excesses(laid) if missing[one.row] == 0]
-    narrow = drawn.station[drawn.kept & (np.hypot(*(drawn.on_toe - drawn.on_top).T) < least)]
-    found += far_ends(laid, offset, narrow, least)
+    found += far_ends(laid, offset, least)
     return [Problem(one.where, one.reason, "beyond") for one in found]
 
 

@@ -9,6 +9,7 @@ from shapely import LineString
 
 from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
 from midrib.hatching.chains import chain_of
+from midrib.hatching.rule import LEAST_LENGTH
 from midrib.kernels.crossings import meet
 from midrib.kernels.gauging import ALLOWED, LEAN, MOST_TILT, STEP, TOE, TOP, TURN
 
@@ -134,7 +135,7 @@ def measure_strokes(
         turns=np.degrees(laid.between(TURN)),
         allowed=np.degrees(laid.between(ALLOWED)),
         tilts=tilts[laid.gauged[:, LEAN] == MOST_TILT],
-        beyond=excesses(laid) + far_ends(laid),
+        beyond=excesses(laid) + far_ends(laid, least=LEAST_LENGTH * rule.least_gap),
     )
 
 
@@ -164,7 +165,9 @@ def laid_of(
 ) -> Laid:
     """Whole strokes where they are found on the curves, whoever drew them."""
     whole = shapely.linestrings(np.stack([on_top, on_toe], axis=1))
-    edges = strip.main, strip.auxiliary
+    edges = [strip.main, strip.auxiliary]
+    if is_right_of(strip.main, on_top, on_toe):  # gauging has the slope on the left
+        middle, *edges = shapely.reverse([middle, *edges])
     feet = [
         shapely.line_locate_point(edge, shapely.points(ends))
         for edge, ends in zip(edges, (on_top, on_toe), strict=True)
@@ -178,6 +181,16 @@ def laid_of(
         rule.gaps(np.hypot(*(on_toe - on_top).T), local),
     )
     return Laid(curves, station, np.column_stack(feet), ends, asked, local, on_edge)
+
+
+def is_right_of(top: LineString, on_top: "Floats", on_toe: "Floats") -> bool:
+    """Whether most strokes go to the right of a top."""
+    corners = shapely.get_coordinates(top)
+    at = shapely.line_locate_point(top, shapely.points(on_top))
+    arc = np.append(0.0, np.cumsum(np.hypot(*np.diff(corners, axis=0).T)))
+    along = np.diff(corners, axis=0)[np.clip(np.searchsorted(arc, at) - 1, 0, len(corners) - 2)]
+    down = on_toe - on_top
+    return bool(np.sign(along[:, 0] * down[:, 1] - along[:, 1] * down[:, 0]).sum() < 0.0)
 
 
 def crossings(strokes: "NDArray[np.object_]") -> int:

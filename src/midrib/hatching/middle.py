@@ -168,8 +168,8 @@ def sides_of(layout: Layout, top: Chain, toe: Chain) -> int:
         return 0
     x, y = layout.mesh.x, layout.mesh.y
     width = layout.mean_width
-    far = top.vertex[min(int(np.searchsorted(top.arc, width)), top.vertex.size - 1)]
-    along = np.array([x[far] - x[top.vertex[0]], y[far] - y[top.vertex[0]]])
+    along = np.array([np.interp(width, top.arc, axis[top.vertex]) for axis in (x, y)])
+    along -= x[top.vertex[0]], y[top.vertex[0]]
     for k in range(toe.side.size):
         a, b = toe.vertex[k], toe.vertex[k + 1]
         step = np.array([x[b] - x[a], y[b] - y[a]])

@@ -29,7 +29,9 @@ CORNER = 1.5  # lengths of stroke to either side, over which the middle line may
 STRAIGHT = np.pi / 18.0  # 10 degrees: an edge that turns less within two widths has no corner there
 MOST_TILT = np.pi / 18.0  # 10 degrees from the normal, where both edges are straight and parallel
 MOST_LEAN = np.pi / 7.2  # 25 degrees beyond all normals of the straighter edge, anywhere else
-SHORTEST_CHORD = 0.25  # widths: shorter ends of an edge have no direction
+SHORTEST_CHORD = 0.25  # of a chord: shorter ends of an edge have no direction
+FEWEST_CHORDS = 8.0  # of an edge
+NEAR_END, SIDE = 2.0, np.pi / 3.0  # widths from an end; 60 degrees between a side and an edge
 PLACES = (-1.5, -0.75, 0.0, 0.75, 1.5)  # widths from an end, where directions over a width are told
 
 
@@ -89,13 +91,20 @@ def is_straight(course: Course, station: float, width: float) -> bool:
 
 @njit(borrows=True)
 def spread(course: Course, station: float, width: float) -> tuple[float, float]:
-    """Middle of the directions of a course within two widths of a station, and half their range."""
+    """Middle of the directions of a course within two widths of a station, and half their range.
+
+    They are told over a width, and over an eighth of a course that is shorter than eight: one chord
+    of half a ring would be a straight edge.
+    """
     low, high, first = np.inf, -np.inf, np.nan
-    for k in range(-2, 2):
-        start, stop = station + k * width, station + (k + 1) * width
+    total = course.arc[course.arc.size - 1]
+    chord = min(width, total / FEWEST_CHORDS)
+    reach = int(np.ceil(2.0 * width / chord))
+    for k in range(-reach, reach):
+        start, stop = station + k * chord, station + (k + 1) * chord
         if not course.is_closed:
-            start, stop = max(start, 0.0), min(stop, course.arc[course.arc.size - 1])
-        if stop - start < SHORTEST_CHORD * width:
+            start, stop = max(start, 0.0), min(stop, total)
+        if stop - start < SHORTEST_CHORD * chord:
             continue
         ax, ay = place_on(course, start)
         bx, by = place_on(course, stop)
@@ -108,13 +117,38 @@ def spread(course: Course, station: float, width: float) -> tuple[float, float]:
 
 
 @njit(borrows=True)
+def is_near_end(course: Course, station: float, width: float) -> bool:
+    """Whether an open course ends within two widths of a station."""
+    total = course.arc[course.arc.size - 1]
+    return not course.is_closed and min(station, total - station) <= NEAR_END * width
+
+
+@njit(borrows=True)
+def side_of(course: Course, station: float, width: float, is_top: bool) -> float:
+    """Direction down the side that an edge begins or ends with; NaN where a station is on it.
+
+    A top that ends before the slope does leaves a side to the toe: strokes turn to run along it.
+    """
+    total = course.arc[course.arc.size - 1]
+    end, way = (0.0, 0.5) if 2.0 * station < total else (total, -0.5)
+    ax, ay = place_on(course, min(end, end + way * width))
+    bx, by = place_on(course, max(end, end + way * width))
+    side = np.arctan2(by - ay, bx - ax)
+    off = direction_on(course, station, width / 2.0) - side
+    if abs(folded(off, 2.0 * np.pi)) <= SIDE:
+        return np.nan
+    return side + np.pi if is_top == (end == 0.0) else side
+
+
+@njit(borrows=True)
 def leaning(
     top: Course, toe: Course, on_top: float, on_toe: float, width: float
 ) -> tuple[float, float]:
     """Direction of the normal that a stroke may not lean from too far, and how far it may.
 
     Where both edges are straight and parallel it is that of the top. Anywhere else the stroke may
-    be normal to any part of the straighter edge beside it, of both if both are straight.
+    be normal to any part of the straighter edge beside it, of both if both are straight, and of all
+    directions between. Near an end where an edge begins with a side, it may turn as far as that.
     """
     if is_straight(top, on_top, width) and is_straight(toe, on_toe, width):
         here = direction_on(top, on_top, width)
@@ -126,9 +160,16 @@ def leaning(
     if not half <= wider:
         middle, half, other, wider = other, wider, middle, half
     if wider <= STRAIGHT:
-        off = folded(other - middle, np.pi)
+        off = folded(other - middle, 2.0 * np.pi)  # they run beside each other
         low, high = min(-half, off - wider), max(half, off + wider)
         middle, half = middle + (low + high) / 2.0, (high - low) / 2.0
+    if is_near_end(top, on_top, width) or is_near_end(toe, on_toe, width):
+        for edge, at, is_top in ((top, on_top, True), (toe, on_toe, False)):
+            side = side_of(edge, at, width, is_top)
+            if not np.isnan(side):
+                off = folded(side - middle - np.pi / 2.0, 2.0 * np.pi)
+                low, high = min(-half, off), max(half, off)
+                middle, half = middle + (low + high) / 2.0, (high - low) / 2.0
     return middle + np.pi / 2.0, half + MOST_LEAN
 
 
