@@ -67,7 +67,7 @@ def draw_comparison(
     rows = comparison.rows
     handles = keys_of(rows)
     n_columns = legend_columns(rows, width)
-    footer = EDGE + -(-len(handles) // n_columns) * ENTRY
+    footer = 2.0 * EDGE + -(-len(handles) // n_columns) * ENTRY
     frame = frame_of(comparison)
     west, south, east, north = frame.bounds
     extent = np.array([east - west, north - south])
