@@ -99,6 +99,18 @@ def test_panels_show_what_the_variant_is_made_of() -> None:
     assert shapely.distance(centred, middles).max() > 0.1
 
 
+def test_panels_of_variants_have_radii_of_their_own() -> None:
+    """The mean of two curves stays away from the ends, where the centred line does not."""
+    drawn: list[Any] = [
+        axes.collections[0]
+        for axes in draw_comparison(
+            compare(NOTCHED, ["minimal-radii:centred", "minimal-radii:symmetric"])
+        ).axes[:2]
+    ]
+    centred, symmetric = (np.array(radii.get_segments()) for radii in drawn)
+    assert not np.array_equal(centred, symmetric)
+
+
 def test_variants_differ() -> None:
     found = compare(NOTCHED, sorted(variants()))
     lines = {row.method: row.line for row in found.rows}
