@@ -2,6 +2,8 @@
 
 python benchmarks/methods.py            everything, some three minutes; tables and results are kept
 python benchmarks/methods.py --quick    up to 1,000 vertices, results go to out/ only
+python benchmarks/methods.py --only "triangle script"    a table of it and the medial axis, up to
+                                                         1,000 vertices; nothing is written
 
 All ways take turns in one run: compare ratios. Some rivals do less: ``pyvoronoi`` leaves arcs as
 chords and finds no radii, those from points of the boundary find no exact axis, and what a rival
@@ -90,7 +92,7 @@ GROUPS = {
         Way("chordal-axis", ("midrib",), by_skeleton("chordal-axis"), "triangles"),
         Way("point-voronoi", ("midrib",), by_skeleton("point-voronoi"), "points"),
         Way("pyvoronoi", ("pyvoronoi",), by_pyvoronoi, "segments, Boost"),
-        *(way for way in RIVALS if "pythoncdt" not in way.packages),
+        *RIVALS,
         Way("CGAL approximate", ("pysfcgal",), by_sfcgal("approximate_medial_axis"), "GPL"),
     ),
     "straight": (
@@ -175,7 +177,14 @@ def main() -> None:
     """Measure, keep the results and write the tables."""
     parser = argparse.ArgumentParser(description="CPU time of skeletons and of their rivals.")
     parser.add_argument("--quick", action="store_true", help="up to 1,000 vertices, docs stay")
-    quick = parser.parse_args().quick
+    parser.add_argument("--only", help="rivals of the medial axis, commas between; just a table")
+    given = parser.parse_args()
+    if given.only:
+        names = {MIDRIB["methods"], *given.only.split(", ")}
+        ways = tuple(way for way in GROUPS["methods"] if way.name in names)
+        print(table(measure(ways, SIZES[:2]), MIDRIB["methods"]))
+        return
+    quick = given.quick
     found = {name: measure(ways, SIZES[: 2 if quick else 3]) for name, ways in GROUPS.items()}
     kept = {"machine": machine(), "versions": versions(), "seconds": found}
     write_json(ROOT / "out" / "methods.json" if quick else RESULTS, kept)

@@ -6,14 +6,23 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from shapely import LineString, Point, Polygon, affinity, box
+from shapely import LineString, MultiPolygon, Point, Polygon, affinity, box
 
 import midrib
 from midrib.comparison import compare
-from midrib.errors import GeometryTypeError, ParameterError
+from midrib.curves.variants import variant_of, variants
+from midrib.errors import GeometryTypeError, ParameterError, RepairedAreaWarning
 from midrib.figures.comparison import COLOURS, draw_comparison
+from midrib.figures.comparison_page import rows_of
 
 L_SHAPE = Polygon([(0, 0), (10, 0), (10, 3), (3, 3), (3, 12), (0, 12)])
+NOTCHED = Polygon([
+    (0, 0), (40, 0), (40, 30), (34, 30), (34, 7), (22, 6), (20, 9), (18, 6), (0, 5),
+])  # fmt: skip
+BOW_TIE = Polygon([(50, 0), (52, 2), (52, 0), (50, 2)])
+CURLED = Polygon([
+    (0, 0), (10, 0), (10, 2), (5, 2), (5.001, 2.001), (5.001, 2), (5, 2.001), (0, 2),
+])  # fmt: skip
 NECK = shapely.union_all([
     box(0, 0, 5, 5),
     Polygon([(5, 2.5), (9, 2.5), (9, 2.51), (6.2, 2.51), (5, 2.51)]),
@@ -23,10 +32,12 @@ NECK = shapely.union_all([
 
 def test_every_method_has_a_row_with_the_line_of_collapse() -> None:
     found = compare(L_SHAPE)
-    assert [row.method for row in found.rows] == [method.name for method in midrib.methods()]
+    first, *others = [method.name for method in midrib.methods()]
+    assert [row.method for row in found.rows] == [first, "minimal-radii:none", *others]
     for row in found.rows:
+        method, options = variant_of(row.method)
         assert row.line is not None
-        assert row.line.equals(midrib.collapse(L_SHAPE, row.method))
+        assert row.line.equals(midrib.collapse(L_SHAPE, method, **options))
         assert row.vertices == len(row.line.coords)
         assert row.length == pytest.approx(row.line.length)
         assert row.cpu > 0.0
@@ -55,6 +66,98 @@ def test_a_method_that_refuses_the_area_says_why() -> None:
     assert other.off == 0.0
 
 
+@pytest.mark.parametrize(
+    ("name", "options"),
+    [
+        ("minimal-radii:none", {"centring": "none"}),
+        ("minimal-radii:symmetric", {"centring": "symmetric"}),
+        ("minimal-radii:centred", {}),
+        ("mean-curve:kinks", {"method": "mean-curve", "mean": "kinks"}),
+    ],
+)
+def test_variants_are_methods_with_an_option(name: str, options: dict[str, Any]) -> None:
+    """Their lines and names, in the table and in the figure."""
+    found = compare(NOTCHED, [name, "medial-axis"])
+    assert found.rows[0].line == midrib.collapse(NOTCHED, **options)
+    assert rows_of(found)[1][0] == name
+    figure = draw_comparison(found)
+    assert figure.axes[0].get_title(loc="left") == name
+    assert figure.legends[0].get_texts()[0].get_text() == name
+
+
+def test_panels_show_what_the_variant_is_made_of() -> None:
+    """The middles of the radii are on the paper's curve, but not on the centred line."""
+    found = compare(NOTCHED, ["minimal-radii:none", "minimal-radii"])
+    paper, centred = (row.line for row in found.rows)
+    assert paper is not None
+    assert centred is not None
+    drawn: list[Any] = list(draw_comparison(found).axes[0].collections)
+    radii, *_, line = drawn
+    middles = shapely.points(np.array(radii.get_segments()).mean(axis=1))
+    assert np.array_equal(line.get_segments()[0], paper.coords)
+    assert shapely.distance(paper, middles).max() < 1e-9
+    assert shapely.distance(centred, middles).max() > 0.1
+
+
+def test_panels_of_variants_have_radii_of_their_own() -> None:
+    """The mean of two curves stays away from the ends, where the centred line does not."""
+    drawn: list[Any] = [
+        axes.collections[0]
+        for axes in draw_comparison(
+            compare(NOTCHED, ["minimal-radii:centred", "minimal-radii:symmetric"])
+        ).axes[:2]
+    ]
+    centred, symmetric = (np.array(radii.get_segments()) for radii in drawn)
+    assert not np.array_equal(centred, symmetric)
+
+
+def test_variants_differ() -> None:
+    found = compare(NOTCHED, sorted(variants()))
+    lines = {row.method: row.line for row in found.rows}
+    assert lines["minimal-radii"] == lines["minimal-radii:centred"]
+    assert lines["mean-curve"] == lines["mean-curve:proportional"]
+    assert len({line.wkb for line in lines.values() if line is not None}) == len(lines) - 2
+
+
+def test_an_area_is_repaired_as_collapse_does_it() -> None:
+    with pytest.warns(RepairedAreaWarning, match="area: repaired: Self-intersection at") as record:
+        found = compare(CURLED, ["minimal-radii"])
+    assert [warning.filename for warning in record] == [__file__]
+    with pytest.warns(RepairedAreaWarning):
+        assert found.rows[0].line == midrib.collapse(CURLED)
+    assert found.area.is_valid
+    assert found.notes[0].startswith("repaired: ")
+
+
+def test_the_largest_part_is_compared_unless_another_is_chosen() -> None:
+    parts = MultiPolygon([box(0, 0, 9, 2), box(0, 5, 30, 7), BOW_TIE])
+    found = compare(parts, ["minimal-radii"])
+    assert found.area.equals(parts.geoms[1])
+    assert found.notes[0] == "part 1 of 0 to 2, the largest"
+    assert "part 2 is left out: the area is not valid" in found.notes[1]
+    chosen = compare(parts, ["minimal-radii"], part=0)
+    assert chosen.area.equals(parts.geoms[0])
+    assert chosen.notes == ["part 0 of 0 to 2"]
+    assert compare(MultiPolygon([L_SHAPE]), ["minimal-radii"]).notes == []
+
+
+@pytest.mark.parametrize(
+    ("area", "part", "message"),
+    [
+        (BOW_TIE, None, "area: the area is not valid and can be read in more than one way"),
+        (MultiPolygon([L_SHAPE, BOW_TIE]), 1, "area part 1: the area is not valid"),
+        (Polygon(), None, "area is empty"),
+        (L_SHAPE, 1, "part is 1, expected 0, the area has one part"),
+        (MultiPolygon([box(0, 0, 1, 1), L_SHAPE]), 2, "part is 2, expected 0 to 1"),
+        (MultiPolygon([box(0, 0, 1, 1), L_SHAPE]), 0.5, "part is 0.5, expected 0 to 1"),
+        (MultiPolygon([box(0, 0, 1, 1), L_SHAPE]), "1", "part is '1', expected 0 to 1"),
+    ],
+)
+def test_parts_without_a_line_are_refused(area: Any, part: Any, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        compare(area, ["minimal-radii"], part=part)
+
+
 def test_degrees_are_compared_in_metres() -> None:
     area = affinity.translate(affinity.scale(L_SHAPE, 2e-4, 1e-4, origin=(0, 0)), 18, 60)
     found = compare(area, geographic=True)
@@ -72,6 +175,8 @@ def test_the_main_curve_may_be_chosen() -> None:
     ("names", "message"),
     [
         (["no such"], "method is 'no such', expected"),
+        (["medial-axis:none"], "method is 'medial-axis:none', expected .*'mean-curve:kinks'"),
+        (["minimal-radii:"], "method is 'minimal-radii:', expected .*'minimal-radii:none'"),
         ("minimal-radii", "names is 'minimal-radii', expected a sequence"),
         ([], r"names is \[\], expected a sequence"),
     ],
@@ -109,6 +214,22 @@ def test_panels_keep_their_shape() -> None:
             size = np.array([place.width, place.height]) * figure.get_size_inches()
             low, high = np.array(axes.get_xlim()), np.array(axes.get_ylim())
             assert size[0] / size[1] == pytest.approx(np.ptp(low) / np.ptp(high), rel=0.02)
+
+
+def test_tall_areas_are_turned_with_an_arrow_to_the_north() -> None:
+    """North is on the right: what is drawn runs from left to right as the area goes north."""
+    road = box(100, 0, 110, 3000)
+    figure = draw_comparison(compare(road))
+    assert [text.get_text().strip() for text in figure.texts] == ["N"]
+    width, height = figure.get_size_inches()
+    assert 0.5 <= height / width <= 2.0
+    bold: Any = figure.axes[0].collections[-1]
+    x, y = np.asarray(bold.get_segments()[0]).T
+    assert sorted((x[0], x[-1])) == pytest.approx([0.0, 3000.0])
+    assert y == pytest.approx(-105.0)
+    thin: Any = figure.axes[-1].lines[0].get_xdata()
+    assert sorted((thin[0], thin[-1])) == pytest.approx([0.0, 3000.0])
+    assert draw_comparison(compare(L_SHAPE)).texts == []
 
 
 def test_lines_on_each_other_are_all_seen() -> None:

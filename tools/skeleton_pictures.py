@@ -163,13 +163,23 @@ def draw_kinks(path: Path) -> None:
     finish(figure, path)
 
 
+def lake() -> Polygon:
+    """Make a lake in a bent valley, widest in the bend."""
+    turn = np.linspace(0.78 * np.pi, 0.22 * np.pi, 121)
+    middle = np.column_stack([75.0 + 95.0 * np.cos(turn), 70.0 * np.sin(turn) - 62.0])
+    share = np.linspace(0.0, 1.0, 121)
+    radius = 1.5 + 8.0 * np.sin(np.pi * share) + 0.7 * np.sin(23.0 * share)
+    discs = [Point(p).buffer(r) for p, r in zip(middle, radius, strict=True)]
+    return shapely.union_all(discs).simplify(0.05)
+
+
 def draw_labels(path: Path) -> None:
-    """Draw the name of a lake along its label line, and control points of its line."""
-    area = river()
+    """Draw the name of a lake along its label line, and control points of a river's line."""
+    water, area = lake(), river()
     figure, (upper, lower) = sheet(area, 2, 1)
-    label = label_line(area, length=26.0)
-    for axes in (upper, lower):
-        fill(axes, area, WATER)
+    label = label_line(water, length=100.0)
+    fill(upper, water, WATER)
+    fill(lower, area, WATER)
     fill(upper, label.lines.buffer(label.heights / 2.0, cap_style="flat"), "#fdd0a2")
     stroke(upper, label.lines, LINE, 0.9)
     line = collapse(area)

@@ -1,8 +1,9 @@
 """Lines of one area by several methods, side by side, with numbers that compare them."""
 
 import time
+import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,12 @@ from shapely.ops import substring
 from midrib import measures
 from midrib.checks import check_flag
 from midrib.curves.collapse import collapse
-from midrib.curves.methods import finder_of, methods
-from midrib.errors import MidribError, ParameterError
+from midrib.curves.largest import one_part
+from midrib.curves.log import steps_to_caller
+from midrib.curves.variants import usual_variants, variant_of
+from midrib.errors import MidribError, ParameterError, RepairedAreaWarning
 from midrib.geodesy import degree_lengths
 from midrib.layout import Scale
-from midrib.ragged import area_of_one
 from midrib.strip import PLANE, Strip, split
 
 __all__ = ["Compared", "Comparison", "compare"]
@@ -34,6 +36,7 @@ class Compared:
     Attributes
     ----------
     method : str
+        Its name, with a value of its main option after a colon if that was chosen.
     line : LineString or None
         None where the method refuses the area.
     reason : str
@@ -72,16 +75,20 @@ class Comparison:
     Attributes
     ----------
     area : Polygon
+        The one that was compared: repaired, and one part of several.
     rows : list of Compared
         In the order of the methods.
     along : LineString or None
     geographic : bool
+    notes : list of str
+        What was repaired, and which part it is.
     """
 
     area: Polygon
     rows: list[Compared]
     along: LineString | None
     geographic: bool
+    notes: list[str] = field(default_factory=list)
 
     def __repr__(self) -> str:
         """Show which methods there are."""
@@ -89,20 +96,30 @@ class Comparison:
 
 
 def compare(
-    area: Any, names: Sequence[str] | None = None, *, along: Any = None, geographic: bool = False
+    area: Any,
+    names: Sequence[str] | None = None,
+    *,
+    along: Any = None,
+    geographic: bool = False,
+    part: int | None = None,
 ) -> Comparison:
     """Collapse an area by several methods and compare the lines.
 
     Parameters
     ----------
-    area : Polygon
+    area : Polygon or MultiPolygon
+        One that is not valid is repaired as in ``midrib.collapse``, with a warning.
     names : sequence of str, optional
-        Names of methods, all of ``midrib.methods()`` unless given; the first is what the others
-        are held against.
+        Names of methods, or a method with a value of its main option after a colon:
+        ``"minimal-radii:none"``, the paper's curve, ``"minimal-radii:symmetric"``,
+        ``"mean-curve:kinks"``. All of ``midrib.methods()`` and the paper's curve unless given; the
+        first is what the others are held against.
     along : LineString, optional
         Directional polyline, as in ``midrib.collapse``.
     geographic : bool, default False
         Whether coordinates are degrees of longitude and latitude.
+    part : int, optional
+        Which part of a MultiPolygon, from 0; the largest unless given.
 
     Returns
     -------
@@ -112,11 +129,11 @@ def compare(
     Raises
     ------
     GeometryTypeError
-        If ``area`` is no Polygon.
+        If ``area`` is no Polygon or MultiPolygon.
     InvalidAreaError
-        If it is not valid.
+        If it is not valid and the repair is not certain.
     ParameterError
-        If there is no such method.
+        If there is no such method, variant or part.
 
     Examples
     --------
@@ -125,14 +142,17 @@ def compare(
     [('minimal-radii', 9.0, 0.0), ('chordal-axis', 9.0, 0.0)]
     """
     if names is None:
-        names = [method.name for method in methods()]
+        names = usual_variants()
     if isinstance(names, str) or not names:
         msg = f"names is {names!r}, expected a sequence of names of methods"
         raise ParameterError(msg)
     for name in names:
-        finder_of(name)
+        variant_of(name)
     check_flag(geographic, "geographic")
-    area = area_of_one(area, "area")
+    area, notes, is_repaired = one_part(area, part)
+    if is_repaired:
+        message = f"area: {'; '.join(notes)}"
+        warnings.warn(message, RepairedAreaWarning, stacklevel=steps_to_caller())
     scale = degree_lengths(np.array(area.bounds)) if geographic else PLANE
     strip = split(scaled(area, scale), along=None if along is None else scaled(along, scale))
     first: LineString | None = None
@@ -141,7 +161,7 @@ def compare(
         row = compared(name, area, first, along, strip, scale)
         rows.append(row)
         first = row.line if first is None else first
-    return Comparison(area, rows, along, geographic)
+    return Comparison(area, rows, along, geographic, notes)
 
 
 def scaled(geometry: Any, scale: Scale) -> Any:
@@ -153,11 +173,12 @@ def compared(
     name: str, area: Polygon, first: LineString | None, along: Any, strip: Strip, scale: Scale
 ) -> Compared:
     """Line of one method and its numbers."""
+    method, options = variant_of(name)
     line, cpu, geographic = None, np.inf, scale != PLANE
     for _ in range(1 + ROUNDS):
         started = time.process_time()
         try:
-            line = collapse(area, name, along=along, geographic=geographic)
+            line = collapse(area, method, along=along, geographic=geographic, **options)
         except MidribError as error:
             return Compared(name, None, str(error), 0, *[np.nan] * 6)
         cpu = min(cpu, time.process_time() - started)

@@ -110,7 +110,7 @@ app.command(
     "geographic.\n\n"
     "Exit code 0: done; 1: a method has no line, the reason is in the table; 2: wrong usage.",
     epilog="Examples:\n\nmidrib compare rivers.gpkg odra.html --feature name=Odra\n\n"
-    "midrib compare roads.gpkg one.svg --feature 17 --methods minimal-radii,straight-skeleton",
+    "midrib compare roads.gpkg one.svg --feature 17 --methods minimal-radii,mean-curve:kinks",
 )(compare)
 app.command(
     help="Check slopes before they are hatched: a table of what is wrong with them, and where.\n\n"

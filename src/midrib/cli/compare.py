@@ -1,11 +1,12 @@
 """The command ``midrib compare``."""
 
 from typing import TYPE_CHECKING, Any
+from warnings import catch_warnings, simplefilter
 
 import typer
 
 from midrib.cli import options as cli
-from midrib.errors import ParameterError
+from midrib.errors import ParameterError, RepairedAreaWarning
 
 if TYPE_CHECKING:
     from midrib.formats.reading import Batch, Source
@@ -18,6 +19,7 @@ def compare(
     out: cli.ComparisonOut,
     layer: cli.Layer = None,
     feature: cli.OneFeature = None,
+    part: cli.OnePart = None,
     methods: cli.Methods = None,
     overwrite: cli.Overwrite = False,
     quiet: cli.Quiet = False,
@@ -41,7 +43,11 @@ def compare(
         geographic, unit = is_geographic(features.crs), unit_of(features.crs)
     report.announce()
     names = None if methods is None else [name.strip() for name in methods.split(",")]
-    found = compare_lines(area, names, geographic=geographic)
+    with catch_warnings():
+        simplefilter("ignore", RepairedAreaWarning)  # it is said below
+        found = compare_lines(area, names, geographic=geographic, part=part)
+    for note in found.notes:
+        report.say(note)
     show(rows_of(found))
     title = f"{layer}, {feature}" if feature else layer
     with staged(out.parent) as stage:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from midrib.curves.connecting import Joined
     from midrib.curves.parts import Part
 
-__all__ = ["Joint", "Log", "Problem", "check_on_error"]
+__all__ = ["Joint", "Log", "Problem", "check_on_error", "steps_to_caller"]
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,15 @@ if TYPE_CHECKING:
     from midrib.ends import End
     from midrib.types import Floats, Ints
 
-__all__ = ["OF_METHOD", "Method", "RadiiFinder", "construction_of_collapse", "finder_of", "methods"]
+__all__ = [
+    "MEAN_CURVES",
+    "OF_METHOD",
+    "Method",
+    "RadiiFinder",
+    "construction_of_collapse",
+    "finder_of",
+    "methods",
+]
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,18 @@
 """Comparisons drawn: a panel for each method, and one with all lines."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from textwrap import fill
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import shapely
 
 from midrib.checks import check_library
+from midrib.curves.variants import variant_of
 from midrib.figures.curves import maker_of
 from midrib.figures.draw import AUXILIARY, FILL, LINE, MAIN, OUTLINE, RADIUS, check_figure
 from midrib.figures.paper import FONT, INCH, POINT, TEXT, path_of, save
+from midrib.figures.sheet import GAP, Sheet, sheet_of
 from midrib.geodesy import degree_lengths
 from midrib.ragged import normalised, pack_areas
 from midrib.strip import PLANE, divide
@@ -21,13 +24,14 @@ if TYPE_CHECKING:
 
     from midrib.comparison import Compared, Comparison
     from midrib.figures.curves import Sketch
+    from midrib.types import Floats
 
 __all__ = ["COLOURS", "draw_comparison"]
 
 THIN, THICK, DASH = 0.15, 0.55, 2.4  # millimetres: lines where all are drawn, and their dashes
 COLOURS = ("#111111", "#d1495b", "#2e86ab", "#1e9e58", "#e08a00", "#8e44ad", "#00a3b4", "#7a5c3e")
-TITLE, GAP, FOOTER = 7.0, 4.0, 6.0  # millimetres
-FLAT = 2.2  # width over height from which on panels stand below each other
+EDGE, ENTRY, NORTH = 2.0, 4.2, 4.0  # millimetres: below the legend, its rows, the arrow's size
+LETTER, SAMPLE = 1.45, 7.5  # millimetres: an entry of the legend, for a letter and beside them
 
 
 def draw_comparison(
@@ -61,84 +65,127 @@ def draw_comparison(
     from matplotlib.figure import Figure
 
     rows = comparison.rows
-    low, high = np.split(np.array(comparison.area.bounds), 2)
-    unit = np.array(degree_lengths(comparison.area.bounds) if comparison.geographic else PLANE)
-    extent = (high - low) * unit
-    count = len(rows) + 1
-    n_columns = columns_for(count, extent[0] / extent[1])
-    n_rows = -(-count // n_columns)
-    panel = (width - (n_columns + 1) * GAP) / n_columns
-    tall = panel * extent[1] / extent[0]
-    height = n_rows * (tall + TITLE) + GAP + FOOTER
-    figure = Figure(figsize=(width / INCH, height / INCH), facecolor="white")
-    for k in range(count):
-        left = GAP + k % n_columns * (panel + GAP)
-        below = height - (k // n_columns + 1) * (tall + TITLE)
-        axes = figure.add_axes(
-            (left / width, below / height, panel / width, tall / height), aspect=unit[1] / unit[0]
-        )
-        axes.set_axis_off()
-        margin = 0.01 * (high - low)
-        axes.set_xlim(low[0] - margin[0], high[0] + margin[0])
-        axes.set_ylim(low[1] - margin[1], high[1] + margin[1])
-        fill(axes, comparison)
-        if k < len(rows):
-            draw_row(axes, comparison, rows[k])
-        else:
-            draw_all(axes, rows)
+    handles = keys_of(rows)
+    n_columns = legend_columns(rows, width)
+    footer = 2.0 * EDGE + -(-len(handles) // n_columns) * ENTRY
+    frame = frame_of(comparison)
+    west, south, east, north = frame.bounds
+    extent = np.array([east - west, north - south])
+    sheet = sheet_of(len(rows) + 1, extent, width, footer)
+    if sheet.is_turned:
+        frame = frame_of(comparison, is_turned=True)
+    figure = Figure(figsize=(width / INCH, sheet.height / INCH), facecolor="white")
+    panels = [figure.add_axes(sheet.place(k)) for k in range(len(rows) + 1)]
+    for axes in panels:
+        open_panel(axes, frame, sheet)
+    for axes, row in zip(panels, rows, strict=False):
+        draw_row(axes, comparison, row, frame)
+    draw_all(panels[-1], rows, frame)
+    if sheet.is_turned:
+        draw_north(figure, sheet)
     figure.legend(
-        handles=keys_of(rows),
+        handles=handles,
         loc="lower left",
-        bbox_to_anchor=(GAP / width, 1.0 / height),
-        ncols=len(rows),
+        bbox_to_anchor=(GAP / width, EDGE / 2.0 / sheet.height),
+        ncols=n_columns,
         frameon=False,
         fontsize=FONT,
         labelcolor=TEXT,
         handlelength=1.4,
         borderpad=0.0,
+        columnspacing=1.4,
     )
     if path is not None:
         save(figure, Path(path))
     return figure
 
 
-def columns_for(count: int, elongation: float) -> int:
-    """How many panels stand side by side: few of flat areas, many of tall ones."""
-    if elongation > FLAT:
-        return 1 if elongation > 2.0 * FLAT else 2
-    return min(count, 3 if elongation > 1.0 / FLAT else 4)
+class Frame(NamedTuple):
+    """The area as it lies on the sheet: in lengths, and turned by a quarter if it is tall."""
+
+    unit: "Floats"  # (2,) lengths of one unit of x and of y
+    is_turned: bool
+    area: Any
+    bounds: tuple[float, float, float, float]
+
+    def place(self, points: "Floats") -> "Floats":
+        """Place points (n, 2) on the sheet; clockwise if turned, so that north is on the right."""
+        return placed(points, self.unit, self.is_turned)
 
 
-def fill(axes: "Axes", comparison: "Comparison") -> None:
-    """Fill the area."""
+def placed(points: "Floats", unit: "Floats", is_turned: bool) -> "Floats":
+    """Points (n, 2) in lengths, turned clockwise by a quarter if asked to."""
+    x, y = (points[:, :2] * unit).T
+    return np.column_stack([y, -x] if is_turned else [x, y])
+
+
+def frame_of(comparison: "Comparison", *, is_turned: bool = False) -> Frame:
+    """Return how the area of a comparison lies on the sheet."""
+    unit = np.array(degree_lengths(comparison.area.bounds) if comparison.geographic else PLANE)
+    area = shapely.transform(comparison.area, lambda points: placed(points, unit, is_turned))
+    return Frame(unit, is_turned, area, area.bounds)
+
+
+def open_panel(axes: "Axes", frame: Frame, sheet: Sheet) -> None:
+    """Show the area in the middle of a panel, true to scale."""
     from matplotlib.patches import PathPatch
 
-    outline = path_of(comparison.area)
+    axes.set_axis_off()
+    west, south, east, north = frame.bounds
+    half = sheet.panel / sheet.scale / 2.0
+    axes.set_xlim((west + east) / 2.0 - half[0], (west + east) / 2.0 + half[0])
+    axes.set_ylim((south + north) / 2.0 - half[1], (south + north) / 2.0 + half[1])
+    outline = path_of(frame.area)
     axes.add_patch(PathPatch(outline, facecolor=FILL, edgecolor=OUTLINE, lw=0.1 / POINT))
 
 
-def draw_row(axes: "Axes", comparison: "Comparison", row: "Compared") -> None:
+def draw_north(figure: "Figure", sheet: Sheet) -> None:
+    """Draw an arrow to the north, which is on the right, above the first row of panels."""
+    size = np.array([sheet.width, sheet.height])
+    head = np.array([sheet.width - GAP - NORTH, sheet.height - NORTH]) / size
+    figure.text(head[0], head[1], " N", fontsize=FONT, color=TEXT, ha="left", va="center")
+    axes = figure.axes[0]
+    axes.annotate(
+        "",
+        xy=tuple(head),
+        xytext=(float(head[0] - 2.0 * NORTH / sheet.width), float(head[1])),
+        xycoords="figure fraction",
+        arrowprops={"arrowstyle": "-|>", "color": TEXT, "lw": 0.8, "shrinkA": 0, "shrinkB": 0},
+        annotation_clip=False,
+    )
+
+
+def legend_columns(rows: "list[Compared]", width: float) -> int:
+    """How many entries of the legend find room beside each other."""
+    longest = max(len(row.method) for row in rows)
+    return max(int((width - GAP) / (longest * LETTER + SAMPLE)), 1)
+
+
+def draw_row(axes: "Axes", comparison: "Comparison", row: "Compared", frame: Frame) -> None:
     """Draw the line of one method with what it is made of."""
     title(axes, row.method, row.reason)
     if row.line is None:
         return
     sketch = sketch_of(comparison, row.method)
-    stroke(axes, [*sketch.radii, *sketch.branches], RADIUS, 0.12)
-    stroke(axes, [sketch.main], MAIN, 0.25)
-    stroke(axes, [sketch.auxiliary], AUXILIARY, 0.25)
-    stroke(axes, [shapely.get_coordinates(row.line)], LINE, 0.5)
+    for chains, colour, width in (
+        ([*sketch.radii, *sketch.branches], RADIUS, 0.12),
+        ([sketch.main], MAIN, 0.25),
+        ([sketch.auxiliary], AUXILIARY, 0.25),
+        ([shapely.get_coordinates(row.line)], LINE, 0.5),
+    ):
+        stroke(axes, [frame.place(chain) for chain in chains], colour, width)
 
 
-def draw_all(axes: "Axes", rows: "list[Compared]") -> None:
+def draw_all(axes: "Axes", rows: "list[Compared]", frame: Frame) -> None:
     """Draw all lines: thin ones, with dashes that take turns.
 
     Where lines lie on each other the dashes of each are in the gaps of the others.
     """
-    title(axes, "all", "")
+    title(axes, "all")
     keys = keys_of(rows)
     lines = [row.line for row in rows if row.line is not None]
     for k, (line, key) in enumerate(zip(lines, keys, strict=True)):
-        points = shapely.get_coordinates(line)
+        points = frame.place(shapely.get_coordinates(line))
         for width, dashes in ((THIN, False), (THICK, True)):
             on, gap = DASH / width, (len(keys) - 1) * DASH / width  # in line widths
             axes.plot(
@@ -169,10 +216,15 @@ def colours_of(rows: "list[Compared]") -> list[str]:
     return [COLOURS[k % len(COLOURS)] for k in range(len(rows))]
 
 
-def title(axes: "Axes", name: str, reason: str) -> None:
-    """Name a panel, with the reason why nothing is in it."""
-    text = f"{name}: {reason}" if reason else name
-    axes.set_title(text, fontsize=FONT + 1.0, color=TEXT, loc="left", pad=2.0, wrap=True)
+def title(axes: "Axes", name: str, reason: str = "") -> None:
+    """Name a panel, and say in it why it has no line."""
+    axes.set_title(name, fontsize=FONT + 1.0, color=TEXT, loc="left", pad=2.0)
+    if reason:
+        panel = axes.get_window_extent().width / axes.figure.dpi * INCH
+        lines = fill(reason, max(int(panel / LETTER), 1))
+        axes.text(
+            0.0, 1.0, lines, transform=axes.transAxes, va="top", fontsize=FONT, color=TEXT, zorder=3
+        )
 
 
 def stroke(axes: "Axes", chains: list[Any], colour: str, width: float) -> None:
@@ -184,9 +236,9 @@ def stroke(axes: "Axes", chains: list[Any], colour: str, width: float) -> None:
         axes.add_collection(lines, autolim=False)
 
 
-def sketch_of(comparison: "Comparison", method: str) -> "Sketch":
-    """Sketch of what the line of a method is made of."""
+def sketch_of(comparison: "Comparison", name: str) -> "Sketch":
+    """Sketch of what the line of a method, or of a variant of it, is made of."""
     scale = degree_lengths(np.array(comparison.area.bounds)) if comparison.geographic else PLANE
     packed = pack_areas(np.array([comparison.area], dtype=object)).rings(0)
     layout = divide(*normalised(*packed), scale, along=comparison.along)
-    return maker_of(method, {})(*packed, layout)[0]
+    return maker_of(*variant_of(name))(*packed, layout)[0]

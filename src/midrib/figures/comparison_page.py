@@ -36,7 +36,7 @@ th {{ cursor: pointer; }} th:hover {{ text-decoration: underline; }}
 {figure}
 <p>A click on a heading sorts. <em>Centredness</em>: 0 in the middle of the two sides, 1 on one of
 them, away from the ends. <em>Off</em>: distance from the line of the first method, in mean widths
-of the area. Lengths in {unit}.</p>
+of the area. Lengths in {unit}. {notes}</p>
 <table><thead><tr>{head}</tr></thead><tbody>
 {body}
 </tbody></table><script>
@@ -138,6 +138,7 @@ def page_of(comparison: "Comparison", title: str, unit: str | None) -> str:
         title=escape(title),
         figure=figure[figure.index("<svg") :],
         unit=escape(unit or "units of the coordinates"),
+        notes=escape(f"The area: {'; '.join(comparison.notes)}." if comparison.notes else ""),
         head="".join(f"<th>{escape(heading)}</th>" for heading in HEADINGS),
         body=body,
     )

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_line", "draw_points", "draw_radii", "draw_strip", "finish", "panels"]
 
-GAP, TITLE, FOOTER, ROW = 4.0, 8.0, 4.0, 5.0  # millimetres
+GAP, TITLE, FOOTER, ROW = 4.0, 10.5, 4.0, 5.0  # millimetres
 MARGIN = 0.04  # of the larger extent, around a shape
 SIDE, THIN, BOLD, DOT = 0.4, 0.15, 0.6, 1.4  # millimetres
 ENTRY = 33.0  # millimetres that an entry of the legend takes, on average

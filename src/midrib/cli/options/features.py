@@ -19,6 +19,7 @@ __all__ = [
     "LinesOut",
     "Main",
     "OneFeature",
+    "OnePart",
     "PointsIn",
     "PointsOut",
     "Scale",
@@ -89,6 +90,16 @@ OneFeature: TypeAlias = Annotated[
         metavar="N|FIELD=VALUE",
         help="The feature: its number in the file, from 0, or the value of a field; needed if "
         "there are several.",
+    ),
+]
+OnePart: TypeAlias = Annotated[
+    int | None,
+    of_layers(
+        "--part",
+        metavar="N",
+        min=0,
+        help="Of a feature with several parts: which one, from 0; the largest unless you say "
+        "otherwise.",
     ),
 ]
 SlopesIn: TypeAlias = Annotated[

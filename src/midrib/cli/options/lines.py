@@ -39,7 +39,12 @@ __all__ = [
 
 Methods: TypeAlias = Annotated[
     str | None,
-    of_line(metavar="NAME,NAME", help="Some of [bold]midrib methods[/], the first is the measure."),
+    of_line(
+        metavar="NAME,NAME",
+        help="Some of [bold]midrib methods[/], the first is the measure. After a colon a value of "
+        "--centring or --mean: minimal-radii:none, the paper's curve, minimal-radii:symmetric, "
+        "mean-curve:kinks.",
+    ),
 ]
 Method: TypeAlias = Annotated[str, of_line(metavar="NAME", help="One of [bold]midrib methods[/].")]
 Spacing: TypeAlias = Annotated[
