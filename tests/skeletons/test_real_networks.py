@@ -69,6 +69,42 @@ def test_roads_have_fewer_crossings_than_their_skeletons(place: str) -> None:
     assert inside <= (0 if place == "gooi" else 0.02 * crossings + 1)  # dead ends reach the edge
 
 
+def small_areas(name: str, layer: str | None = None) -> Any:
+    """Valid areas of a layer of at most 800 vertices, part by part."""
+    read = geopandas.read_parquet if name.endswith("parquet") else geopandas.read_file
+    shapes = shapely.get_parts(
+        read(FOLDER / name, **({"layer": layer} if layer else {})).geometry.dropna().to_numpy()
+    )
+    few = shapely.get_num_coordinates(shapes) <= 800
+    return shapes[(shapely.get_type_id(shapes) == 3) & shapely.is_valid(shapes) & few]
+
+
+@pytest.mark.parametrize("merge", [0.0, 1.0])
+@pytest.mark.parametrize(
+    ("name", "layer", "row"),
+    [
+        ("nl_bgt_gooi.gpkg", "vlak", 1516),
+        ("nl_plots.parquet", None, 161),
+        ("osm_fi_helsinki.gpkg", "areas", 3),
+    ],
+)
+def test_a_way_back_to_its_crossing_stays(
+    name: str, layer: str | None, row: int, merge: float
+) -> None:
+    """Cut from both ends nothing was left of it but a line without length."""
+    geographic = name.startswith("osm")
+    if layer == "vlak":
+        area = geopandas.read_file(FOLDER / name, layer=layer).geometry[row]
+    else:
+        area = small_areas(name, layer)[row]
+    found = network(area, merge=merge, geographic=geographic)
+    assert len(area.interiors) == cycles(list(found.geoms)) == 2
+    assert shapely.polygonize(list(found.geoms)).geoms[1:]
+    assert found.is_valid
+    assert shapely.length(list(found.geoms)).min() > 0.0
+    check([area], geographic=geographic)
+
+
 @pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
 def test_rivers_and_lakes_have_networks(name: str) -> None:
     shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
