@@ -129,6 +129,9 @@ def test_the_width_is_needed_and_is_a_length(midrib: Runner, tmp_path: Path) -> 
         2,
         True,
     )
+    outcome = midrib("partial", source, out, "--narrower-than", 3, "--method", "chordal-axis")
+    assert outcome.code == 2
+    assert "method is 'chordal-axis', expected 'medial-axis'" in " ".join(outcome.err.split())
     assert not out.exists()
     options = ("--narrower-than", "3", "--min-length", "8")
     assert midrib("partial", source, out, *options).code == 0
