@@ -53,5 +53,5 @@ def partial(
         for batch in report.track(features.batches(), features.count):
             partial_layer(results, nodes, wide, batch, method, options)
     places.write(results, out_layer or layer, report, wide.layer())
-    if results.n_refused:
+    if results.has_doubts:
         raise typer.Exit(1)
