@@ -154,3 +154,23 @@ def test_a_cut_through_a_vertex_of_the_skeleton_leaves_a_line(width: float) -> N
     parts, problems = partial_collapse(area, width, geographic=True, on_error="report")
     assert [problem.status for problem in problems] == ["repaired"]
     assert shapely.area(parts.areas) < area.area
+
+
+def test_a_width_that_a_point_of_the_skeleton_has_is_as_good_as_any() -> None:
+    """A change right beside the point, at its own place, had no way to cut across."""
+    slopes = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="talud").geometry
+    both = 0
+    for area in slopes[:25]:
+        radius = np.sort(skeleton(area).radius)
+        width = 2.0 * float(radius[radius.size * 6 // 10])
+        found, problems = partial_collapse(area, width, on_error="report")
+        assert not any(problem.status == "uncut" for problem in problems)
+        assert found.areas.is_valid
+        both += not (found.areas.is_empty or found.lines.is_empty)
+        less, more = (
+            partial_collapse(area, factor * width, min_length=width, tolerance=width / 1e3).areas
+            for factor in (1.001, 0.999)
+        )
+        assert less.difference(found.areas).area <= 1e-3 * area.area
+        assert found.areas.difference(more).area <= 1e-3 * area.area
+    assert both >= 3
