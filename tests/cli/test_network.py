@@ -120,6 +120,32 @@ def test_wide_parts_and_lines_are_layers(ending: str, midrib: Runner, tmp_path: 
     assert shapely.area(areas).tolist() == [16, 16]
 
 
+def test_narrow_parts_that_stay_areas_are_told(
+    midrib: Runner, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("midrib.curves.dividing.cut_across", lambda *_: None)
+    source, out = write(tmp_path / "in.gpkg", [FAR, DUMBBELL, BOW_TIE]), tmp_path / "out.gpkg"
+    outcome = midrib("partial", source, out, "--narrower-than", "3")
+    assert outcome.code == 1
+    assert "1 refused" in outcome.err
+    assert "1 areas that are wider, narrow parts of 1 features uncut among them" in outcome.err
+    _, rows, areas = read_all(out, "some_refused")
+    assert rows["number"].to_pylist() == [2, 1]
+    assert rows["reason"][1].as_py().startswith("uncut: the narrow part at (")
+    assert areas[1].equals(shapely.from_wkt(DUMBBELL))
+    assert (
+        midrib(
+            "partial",
+            write(tmp_path / "one.gpkg", [DUMBBELL]),
+            tmp_path / "one_out.gpkg",
+            "--narrower-than",
+            "3",
+        ).code
+        == 1
+    )
+    assert read_all(tmp_path / "one_out.gpkg", "some_refused")[1].num_rows == 1
+
+
 def test_the_width_is_needed_and_is_a_length(midrib: Runner, tmp_path: Path) -> None:
     source, out = write(tmp_path / "in.gpkg", [DUMBBELL]), tmp_path / "out.gpkg"
     outcome = midrib("partial", source, out)
@@ -129,6 +155,9 @@ def test_the_width_is_needed_and_is_a_length(midrib: Runner, tmp_path: Path) -> 
         2,
         True,
     )
+    outcome = midrib("partial", source, out, "--narrower-than", 3, "--method", "chordal-axis")
+    assert outcome.code == 2
+    assert "method is 'chordal-axis', expected 'medial-axis'" in " ".join(outcome.err.split())
     assert not out.exists()
     options = ("--narrower-than", "3", "--min-length", "8")
     assert midrib("partial", source, out, *options).code == 0

@@ -14,7 +14,7 @@ import midrib
 from midrib import collapse, network, skeleton
 from midrib.curves.arms import Stretch
 from midrib.curves.dead_ends import middle_of_end, site_of
-from midrib.curves.networks import Change, Ending, blamed, wrong
+from midrib.curves.networks import Change, Ending, blamed, is_straight, wrong
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from tests.shapes import NAMED, VALID
 from tests.strategies import areas
@@ -142,12 +142,38 @@ def test_crossings_are_to_blame_before_dead_ends_are() -> None:
     assert blamed(changes, {9}) == set()
 
 
+def wrong_ones(lines: Sequence[Sequence[Place]], area: Polygon, loops: int = 0) -> list[int]:
+    """Which lines are wrong, none of whose ends are dead."""
+    chains = [np.array(line, dtype=float) for line in lines]
+    found: list[int] = wrong(chains, area, np.zeros((len(lines), 2), bool), loops).tolist()
+    return found
+
+
 def test_lines_are_wrong_that_meet_elsewhere_than_at_their_ends() -> None:
-    lines = [np.array(line, dtype=float) for line in ([(0, 0), (2, 0)], [(1, 0), (1, 1)])]
-    assert wrong(lines, box(0, -1, 2, 2)).tolist() == [0, 1]
-    joined = [np.array(line, dtype=float) for line in ([(0, 0), (1, 0)], [(1, 0), (1, 1)])]
-    assert wrong(joined, box(0, -1, 2, 2)).tolist() == []
-    assert wrong(joined, box(0, -1, 2, 0.5)).tolist() == [1]
+    assert wrong_ones([[(0, 0), (2, 0)], [(1, 0), (1, 1)]], box(0, -1, 2, 2)) == [0, 1]
+    joined: list[list[Place]] = [[(0, 0), (1, 0)], [(1, 0), (1, 1)]]
+    assert wrong_ones(joined, box(0, -1, 2, 2)) == []
+    assert wrong_ones(joined, box(0, -1, 2, 0.5)) == [1]
+
+
+@pytest.mark.parametrize("point", [[(0, 0)], [(0, 0), (0, 0)], [(0, 0), (1, 1), (0, 0)]])
+def test_lines_are_wrong_that_go_nowhere(point: list[Place]) -> None:
+    """A branch that leads back to its crossing, cut from both ends, may have nothing left."""
+    assert wrong_ones([[(0, 0), (2, 0)], point], box(-1, -1, 2, 2), loops=1) == [1]
+
+
+def test_a_way_there_and_back_is_not_straight() -> None:
+    chain, site = np.array([(0.0, 0.0), (1.0, 1.0), (0.0, 0.0)]), site_of(box(-1, -1, 2, 2), (1, 1))
+    assert not is_straight(chain, 1, site)
+
+
+def test_all_lines_are_wrong_that_do_not_go_round_as_often() -> None:
+    ring: list[list[Place]] = [[(0, 0), (1, 1), (2, 0)], [(2, 0), (0, 0)]]
+    assert wrong_ones(ring, box(-1, -1, 3, 2), loops=1) == []
+    assert wrong_ones(ring, box(-1, -1, 3, 2), loops=2) == [0, 1]
+    chains = [np.array(line, dtype=float) for line in ring]
+    dead = np.array([[True, False], [False, True]])  # two that meet are no way round
+    assert wrong(chains, box(-1, -1, 3, 2), dead, 0).size == 0
 
 
 def test_a_grid_of_streets() -> None:
@@ -282,6 +308,7 @@ def test_awkward_areas_have_networks(name: str) -> None:
 def test_every_skeleton_makes_a_network(method: str) -> None:
     grid = shapely.union_all([road((-9, 0), (9, 0)), road((-4, -9), (-4, 9)), road((4, 0), (4, 9))])
     check(grid, method=method)
+    check(grid, method=method, merge=0.0)  # points of a skeleton in one place stay apart
     found = network(grid, method)
     assert off(found, network(grid)) < 0.65
     assert ways_of(found) == {4: 1, 3: 1, 1: 5}

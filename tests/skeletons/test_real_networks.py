@@ -69,6 +69,42 @@ def test_roads_have_fewer_crossings_than_their_skeletons(place: str) -> None:
     assert inside <= (0 if place == "gooi" else 0.02 * crossings + 1)  # dead ends reach the edge
 
 
+def small_areas(name: str, layer: str | None = None) -> Any:
+    """Valid areas of a layer of at most 800 vertices, part by part."""
+    read = geopandas.read_parquet if name.endswith("parquet") else geopandas.read_file
+    shapes = shapely.get_parts(
+        read(FOLDER / name, **({"layer": layer} if layer else {})).geometry.dropna().to_numpy()
+    )
+    few = shapely.get_num_coordinates(shapes) <= 800
+    return shapes[(shapely.get_type_id(shapes) == 3) & shapely.is_valid(shapes) & few]
+
+
+@pytest.mark.parametrize("merge", [0.0, 1.0])
+@pytest.mark.parametrize(
+    ("name", "layer", "row"),
+    [
+        ("nl_bgt_gooi.gpkg", "vlak", 1516),
+        ("nl_plots.parquet", None, 161),
+        ("osm_fi_helsinki.gpkg", "areas", 3),
+    ],
+)
+def test_a_way_back_to_its_crossing_stays(
+    name: str, layer: str | None, row: int, merge: float
+) -> None:
+    """Cut from both ends nothing was left of it but a line without length."""
+    geographic = name.startswith("osm")
+    if layer == "vlak":
+        area = geopandas.read_file(FOLDER / name, layer=layer).geometry[row]
+    else:
+        area = small_areas(name, layer)[row]
+    found = network(area, merge=merge, geographic=geographic)
+    assert len(area.interiors) == cycles(list(found.geoms)) == 2
+    assert shapely.polygonize(list(found.geoms)).geoms[1:]
+    assert found.is_valid
+    assert shapely.length(list(found.geoms)).min() > 0.0
+    check([area], geographic=geographic)
+
+
 @pytest.mark.parametrize("name", ["gshhg_rivers_lakes_americas", "geomaps_rivers_americas_poland"])
 def test_rivers_and_lakes_have_networks(name: str) -> None:
     shapes = geopandas.read_parquet(FOLDER / f"{name}.parquet").geometry.to_numpy()
@@ -118,3 +154,23 @@ def test_a_cut_through_a_vertex_of_the_skeleton_leaves_a_line(width: float) -> N
     parts, problems = partial_collapse(area, width, geographic=True, on_error="report")
     assert [problem.status for problem in problems] == ["repaired"]
     assert shapely.area(parts.areas) < area.area
+
+
+def test_a_width_that_a_point_of_the_skeleton_has_is_as_good_as_any() -> None:
+    """A change right beside the point, at its own place, had no way to cut across."""
+    slopes = geopandas.read_file(FOLDER / "nl_bgt_gooi.gpkg", layer="talud").geometry
+    both = 0
+    for area in slopes[:25]:
+        radius = np.sort(skeleton(area).radius)
+        width = 2.0 * float(radius[radius.size * 6 // 10])
+        found, problems = partial_collapse(area, width, on_error="report")
+        assert not any(problem.status == "uncut" for problem in problems)
+        assert found.areas.is_valid
+        both += not (found.areas.is_empty or found.lines.is_empty)
+        less, more = (
+            partial_collapse(area, factor * width, min_length=width, tolerance=width / 1e3).areas
+            for factor in (1.001, 0.999)
+        )
+        assert less.difference(found.areas).area <= 1e-3 * area.area
+        assert found.areas.difference(more).area <= 1e-3 * area.area
+    assert both >= 3

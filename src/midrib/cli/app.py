@@ -69,8 +69,9 @@ app.command(
     "OUT has the lines, one feature from node to node, as of [bold]midrib network[/]; the parts "
     "that are wider go to a layer, or a file, …_areas, one feature a part, with the attributes of "
     "their area, the number of the part and the status. Each line ends in a vertex of the part it "
-    "leads to. Areas that are refused go to …_refused, with the reason.\n\n"
-    "Exit code 0: done; 1: some areas refused, the rest is written; 2: wrong usage.",
+    "leads to. Areas that are refused go to …_refused, with the reason, and so do those with a "
+    "narrow part that could not be cut off and stays an area (uncut).\n\n"
+    "Exit code 0: done; 1: some areas refused or uncut, the rest is written; 2: wrong usage.",
     epilog="Example:\n\nmidrib partial rivers.gpkg small_scale.gpkg --narrower-than 25m",
 )(partial)
 app.command(

@@ -51,6 +51,11 @@ class Results:
     n_repaired: int = 0
 
     @property
+    def has_doubts(self) -> bool:
+        """Whether there are areas, refused or not, to be looked at."""
+        return any(map(len, self.refused_areas))
+
+    @property
     def counts(self) -> Counts:
         """Counts of all features."""
         numbers = (self.n_features, self.n_lines, self.n_refused, self.n_repaired)
@@ -166,11 +171,16 @@ def leaving(lines: "Geometries", areas: "Geometries") -> "Ints":
 
 def add_refused(results: Results, batch: "Batch", refused: dict[int, str]) -> None:
     """Keep the areas that were refused, with the reason."""
-    rows = np.array(sorted(refused), dtype=np.intp)
-    columns = {"reason": pa.array([refused[i] for i in rows], type=pa.string())}
+    add_doubted(results, batch, refused)
+    results.n_refused += len(refused)
+
+
+def add_doubted(results: Results, batch: "Batch", doubted: dict[int, str]) -> None:
+    """Keep areas to be looked at beside the refused ones, with the reason."""
+    rows = np.array(sorted(doubted), dtype=np.intp)
+    columns = {"reason": pa.array([doubted[i] for i in rows], type=pa.string())}
     results.refused_attributes.append(with_columns(batch.attributes.take(rows), columns))
     results.refused_areas.append(batch.geometries[rows])
-    results.n_refused += len(rows)
 
 
 def with_columns(table: pa.Table, columns: dict[str, pa.Array]) -> pa.Table:

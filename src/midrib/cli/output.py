@@ -167,7 +167,7 @@ class Places(NamedTuple):
         with staged(self.out.parent, stale=self.stale) as stage:
             notes = write_layer(stage / self.out.name, lines)
             where: list[str] = []
-            if results.n_refused:
+            if results.has_doubts:
                 refused = lines._replace(
                     layer=f"{layer}_refused",
                     attributes=pa.concat_tables(results.refused_attributes),

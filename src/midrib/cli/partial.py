@@ -13,7 +13,7 @@ def partial(
     narrower_than: cli.NarrowerThan,
     layer: cli.Layer = None,
     min_length: cli.LeastPart = None,
-    method: cli.SkeletonMethod = "medial-axis",
+    method: cli.PartialMethod = "medial-axis",
     merge: cli.Merge = 1.0,
     min_branch_length: cli.LeastBranch = None,
     min_significance: cli.Significance = 3.0,
@@ -53,5 +53,5 @@ def partial(
         for batch in report.track(features.batches(), features.count):
             partial_layer(results, nodes, wide, batch, method, options)
     places.write(results, out_layer or layer, report, wide.layer())
-    if results.n_refused:
+    if results.has_doubts:
         raise typer.Exit(1)

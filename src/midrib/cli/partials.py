@@ -6,7 +6,7 @@ import numpy as np
 import pyarrow as pa
 import shapely
 
-from midrib.cli.job import add_refused, with_columns
+from midrib.cli.job import add_doubted, add_refused, with_columns
 from midrib.cli.networks import add_pieces
 from midrib.cli.output import Second
 from midrib.curves.partial import partial_collapse
@@ -27,6 +27,7 @@ class WideParts:
     def __init__(self) -> None:
         self.attributes: list[pa.Table] = []
         self.areas: list[Geometries] = []
+        self.n_uncut = 0  # features some narrow part of which has stayed an area
 
     def add(self, batch: "Batch", kept: "Geometries", status: list[str]) -> None:
         """Keep a row for each part, with the attributes of its feature."""
@@ -45,6 +46,8 @@ class WideParts:
         """Return the layer of parts."""
         areas = np.concatenate(self.areas)
         summary = f"{len(areas)} areas that are wider"
+        if self.n_uncut:
+            summary += f", narrow parts of {self.n_uncut} features uncut among them"
         return Second(pa.concat_tables(self.attributes), areas, "Polygon", summary)
 
 
@@ -71,6 +74,9 @@ def partial_layer(
     status = statuses(batch.geometries, problems, refused)
     add_pieces(results, nodes, batch, partial.lines, status, geographic)
     wide.add(batch, partial.areas, status)
+    uncut = {p.index: status[p.index] for p in problems if p.status == "uncut"}
+    wide.n_uncut += len(uncut)
     add_refused(results, batch, refused)
+    add_doubted(results, batch, {i: why for i, why in uncut.items() if i not in refused})
     results.n_features += len(areas)
     results.n_repaired += len({p.index for p in problems if p.status == "repaired"})

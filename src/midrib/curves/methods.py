@@ -35,11 +35,31 @@ __all__ = [
 
 @dataclass(frozen=True)
 class Method:
-    """One way to collapse an area."""
+    """One way to collapse an area.
+
+    Attributes
+    ----------
+    name : str
+        What ``collapse`` takes as ``method``.
+    source : str
+        Who described it, and when.
+    has_branches : bool
+        Whether it makes a skeleton, of which ``collapse`` returns the trunk.
+    supports_holes : bool
+    is_exact : bool
+        Whether vertices of the line are where the method's definition puts them, but for rounding,
+        and not as near as samples of the boundary allow. What lies between two vertices is
+        straight: the arcs of a medial axis are chords within ``tolerance``, by default a 100th of
+        the width.
+    cost : str
+        Time for n vertices.
+    finder : callable
+        Returns what finds lines, by the method's options.
+    """
 
     name: str
     source: str
-    has_branches: bool  # a skeleton, of which collapse returns the trunk
+    has_branches: bool
     supports_holes: bool
     is_exact: bool
     cost: str

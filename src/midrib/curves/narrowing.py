@@ -67,6 +67,9 @@ def divided_at(graph: Graph, radius: float, radii: Radii, scale: Scale) -> Parts
         middle = (low + high) / 2.0
         is_low = radii(places(middle)) < radius
         low[is_low], high[~is_low] = middle[is_low], middle[~is_low]
+    # A point whose radius is just that is the change itself: one beside it had no way to it.
+    is_inside = (high > 0.0) & (high < 1.0)
+    edge, high, start, along = edge[is_inside], high[is_inside], start[is_inside], along[is_inside]
     order = np.lexsort([high, edge])
     new = len(graph.points) + np.arange(edge.size)
     first = np.insert(graph.edges[:, 0], edge[order] + 1, new)

@@ -83,8 +83,11 @@ def network(
     line the skeleton stays as it is. Dead ends go straight on to the edge, into the middle of a
     flat end. Every hole keeps its way round. An area without junctions has its trunk.
 
-    Every line is covered by its area, exactly. O(n log n) beside the skeleton, for arms that see
-    few walls.
+    Every line of a medial axis is covered by its area, exactly. Lines of other skeletons are but
+    for the rounding of coordinates, where they keep vertices of the skeleton that are on the edge
+    or next to it; only what is drawn anew is proven to be inside.
+
+    O(n log n) beside the skeleton, for arms that see few walls.
 
     References
     ----------

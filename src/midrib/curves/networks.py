@@ -15,8 +15,9 @@ from midrib.curves.dead_ends import SIGNIFICANT, STRAIGHT, Site, edge_beyond, mi
 from midrib.curves.graphs import Graph
 from midrib.curves.hubs import hub_of
 from midrib.curves.junctions import crossings_of
+from midrib.curves.narrowing import components
 from midrib.layout import Scale
-from midrib.types import Floats, Ints
+from midrib.types import Bools, Floats, Ints
 
 __all__ = ["network_lines"]
 
@@ -66,7 +67,12 @@ def network_lines(
     site, net = site_of(area, scale), net_of(graph, scale)
     ends = net.ends()
     changes = [crossing_change(net, c, ends, site) for c in crossings_of(net, overlap)]
-    is_tip = (net.degree[ends] == TIP) & ~np.isin(ends, fixed)
+    is_dead = net.degree[ends] == TIP
+    is_line = np.array(
+        [bool(np.ptp(graph.points[rows], axis=0).any()) for rows in net.branches], bool
+    )
+    loops = ways_round(graph.points[ends[is_line]], is_dead[is_line])
+    is_tip = is_dead & ~np.isin(ends, fixed)
     changes += [tip_change(net, int(b), int(end), site) for b, end in np.argwhere(is_tip)]
     changes = [change for change in changes if change.endings]
     while True:
@@ -77,7 +83,10 @@ def network_lines(
             drawn(graph.points, net.branches[b], endings.get((b, 0)), endings.get((b, 1)), site)
             for b in there
         ]
-        bad = {there[k] for k in wrong(lines, site.area)}
+        # Two points of a skeleton may be in one place: what joins them there is no line.
+        own = [k for k, line in enumerate(lines) if is_line[there[k]] or len(line) > 1]
+        there, lines = [there[k] for k in own], [lines[k] for k in own]
+        bad = {there[k] for k in wrong(lines, site.area, is_dead[there], loops)}
         if not (found := blamed(changes, bad)):
             return lines
         changes = [change for k, change in enumerate(changes) if k not in found]
@@ -174,16 +183,25 @@ def is_straight(chain: Floats, at: int, site: Site) -> bool:
     a, b, c = chain[[at - 1, at, at + 1]] * site.scale
     ahead, off = c - a, b - a
     length = np.hypot(*ahead)
+    if length == 0.0:  # there and back: no straight way has a vertex
+        return False
     is_between = 0.0 <= ahead @ off <= length**2
     return bool(
         is_between and abs(ahead[0] * off[1] - ahead[1] * off[0]) <= STRAIGHT * site.extent * length
     )
 
 
-def wrong(lines: list[Floats], area: Polygon | MultiPolygon) -> Ints:
-    """Lines that are not inside, cross themselves, or meet others elsewhere than at common ends."""
-    shapes = np.array([shapely.linestrings(line) for line in lines])
-    bad = ~shapely.covers(area, shapes) | ~shapely.is_simple(shapes)
+def wrong(lines: list[Floats], area: Polygon | MultiPolygon, is_dead: Bools, loops: int) -> Ints:
+    """Lines that are points, not inside, cross themselves, or meet others but at common ends.
+
+    All are if they do not go round as often as the skeleton does. Dead ends (n, 2) are no way
+    round, though two of them may meet where rings touch.
+    """
+    shapes = np.array(
+        [shapely.linestrings(np.resize(line, (max(len(line), 2), 2))) for line in lines]
+    )
+    is_point = np.array([bool((line == line[0]).all()) for line in lines])
+    bad = is_point | ~shapely.covers(area, shapes) | ~shapely.is_simple(shapes)
     one, other = shapely.STRtree(shapes).query(shapes, predicate="intersects")
     one, other = one[one < other], other[one < other]
     met, pair = shapely.get_coordinates(
@@ -193,4 +211,16 @@ def wrong(lines: list[Floats], area: Polygon | MultiPolygon) -> Ints:
     is_end = [(tips[k[pair]] == met[:, None]).all(axis=2).any(axis=1) for k in (one, other)]
     astray = pair[~(is_end[0] & is_end[1])]
     bad[one[astray]] = bad[other[astray]] = True
+    if not bad.any():
+        bad[:] = ways_round(tips, is_dead) != loops
     return np.flatnonzero(bad)
+
+
+def ways_round(tips: Floats, is_dead: Bools) -> int:
+    """How many independent ways round lines have, from the two ends (n, 2, 2) of each."""
+    _, node = np.unique(tips.reshape(-1, 2), axis=0, return_inverse=True)
+    node = node.reshape(-1, 2)
+    node[is_dead] = node.size + np.arange(np.count_nonzero(is_dead))
+    nodes, edges = np.unique(node, return_inverse=True)
+    pieces = np.unique(components(nodes.size, edges.reshape(-1, 2))).size
+    return len(tips) - nodes.size + pieces

@@ -70,8 +70,9 @@ def partial_collapse(
         stands out: it is somewhere 1.4 times as wide as the widest way out within three radii, or
         twice where three ways leave. Others go with what is beside them, the narrow ones first. As
         long as the width unless you say otherwise.
-    method : str, default "medial-axis"
-        One of those of ``midrib.methods()`` that have branches.
+    method : {"medial-axis"}
+        The skeleton whose every disc touches two banks, on either side: cuts need that. Those of
+        other methods do not, and their cuts may cross.
     merge, min_branch_length, min_significance
         Of the network of lines, as in ``midrib.network``. A dead end that is left out stays in the
         area that it is of.
@@ -116,15 +117,12 @@ def partial_collapse(
     >>> found.lines.wkt, found.areas.equals(shapely.union_all([box(0, 0, 4, 4), box(9, 0, 13, 4)]))
     ('MULTILINESTRING ((9 2, 4 2))', True)
     """
+    check_method(method)
     check_merge(merge)
     width = positive(narrower_than, "narrower_than")
     least = width if min_length is None else positive(min_length, "min_length")
-    if method == "medial-axis":
-        options = {"tolerance": FINE * width} | options
-    find_graph, prune = (
-        graph_finder(method, **options),
-        pruning(min_branch_length, min_significance),
-    )
+    find_graph = graph_finder(method, **({"tolerance": FINE * width} | options))
+    prune = pruning(min_branch_length, min_significance)
 
     def find(area: Polygon, scale: "Scale") -> Divided:
         whole, layout = find_graph(area, scale)
@@ -153,6 +151,16 @@ def partial_collapse(
         kept[i] = together(wide) if is_there else None
         lines[i] = MultiLineString(chains) if is_there else None
     return each.reported(Partial(each.taken.given_back(kept), each.taken.given_back(lines)))
+
+
+def check_method(method: Any) -> None:
+    """Refuse skeletons whose discs do not touch both banks."""
+    if not isinstance(method, str) or method != "medial-axis":
+        msg = (
+            f"method is {shown(method)}, expected 'medial-axis': cuts lead from bank to bank of "
+            "its discs, and no other method has discs that touch both"
+        )
+        raise ParameterError(msg)
 
 
 def reasons(found: Divided) -> list[str]:

@@ -23,6 +23,7 @@ __all__ = [
     "Method",
     "Methods",
     "NarrowerThan",
+    "PartialMethod",
     "Percent",
     "PointCount",
     "PointTolerance",
@@ -142,6 +143,10 @@ Connect: TypeAlias = Annotated[
 ]
 SkeletonMethod: TypeAlias = Annotated[
     str, of_line(metavar="NAME", help="One of [bold]midrib methods[/] that have branches.")
+]
+PartialMethod: TypeAlias = Annotated[
+    str,
+    of_line(metavar="NAME", help="[bold]medial-axis[/], whose discs touch both banks; no other."),
 ]
 Merge: TypeAlias = Annotated[
     float,
