@@ -1,7 +1,8 @@
 """Straight skeletons: how long they take, and on how many real areas they are sound.
 
 ``python benchmarks/straight.py speed`` prints times, ``areas`` what becomes of real layers, and
-``hard`` what becomes of areas on squared paper, where most things happen at once.
+``hard`` what becomes of areas on squared paper, where most things happen at once, and of grids of
+streets as a file has them, where things happen nearly at once.
 """
 
 import sys
@@ -29,6 +30,9 @@ MOST_VERTICES = 5_000
 ENOUGH = 0.3  # seconds of runs, of which the shortest counts
 MOST_RUNS = 50
 ROUNDS = 500
+STREETS = (3, 4, 6)  # each way
+DECIMALS = (2, 3, 5, 7)
+DEGREES = np.arange(1, 90) + 0.37
 PLACES = (
     ("as it is", 0.0, (0.0, 0.0)),
     ("turned by 30°", 30.0, (0.0, 0.0)),
@@ -132,8 +136,18 @@ def on_squared_paper(rng: np.random.Generator) -> NDArray[np.object_]:
     return found
 
 
+def streets(n: int, degrees: float, decimals: int) -> shapely.Polygon:
+    """Grid of n by n streets, 12 m wide and every 50 m, at map coordinates, rounded."""
+    middles = 50.0 * np.arange(n)
+    blocks = [shapely.box(x + 6, y + 6, x + 44, y + 44) for x in middles[1:] for y in middles[1:]]
+    town = shapely.box(44, 44, middles[-1] + 56, middles[-1] + 56)
+    area = town.difference(shapely.union_all(blocks))
+    turned = affinity.rotate(affinity.translate(area, 650_000, 480_000), degrees)
+    return shapely.transform(turned, lambda points: np.round(points, decimals))
+
+
 def hard() -> str:
-    """Count failures where edges are parallel, reflex vertices meet, and all at once."""
+    """Count failures where edges are parallel or nearly so, reflex vertices meet, and at once."""
     rng = np.random.default_rng(0)
     drawn = np.concatenate([on_squared_paper(rng) for _ in range(ROUNDS)])
     rows = []
@@ -146,7 +160,12 @@ def hard() -> str:
         )
         parts = parts[shapely.is_valid(parts)]
         rows.append((name, f"{len(parts):,}", str(failures_in(parts).total())))
-    return markdown(("squared paper", "areas", "failures"), rows)
+    for n in STREETS:
+        for decimals in DECIMALS:
+            grids = np.array([streets(n, degrees, decimals) for degrees in DEGREES])
+            name = f"{n} by {n} streets, {decimals} decimals"
+            rows.append((name, f"{len(grids):,}", str(failures_in(grids).total())))
+    return markdown(("squared paper, and streets", "areas", "failures"), rows)
 
 
 def main() -> None:

@@ -103,6 +103,40 @@ def test_square_ring_meets_halfway() -> None:
     assert ridge.length == pytest.approx(32 + 8 * np.sqrt(2))
 
 
+def streets(n: int, decimals: int, angle: float, origin: tuple[float, float]) -> Polygon:
+    """Streets 12 wide round blocks, n each way every 50, turned and rounded as a file has them."""
+    middles = 50.0 * np.arange(n)
+    blocks = [box(x + 6, y + 6, x + 44, y + 44) for x in middles[:-1] for y in middles[:-1]]
+    area = box(-6, -6, middles[-1] + 6, middles[-1] + 6).difference(shapely.union_all(blocks))
+    turned = affinity.translate(affinity.rotate(area, angle, origin=(0, 0)), *origin)
+    rounded: Polygon = shapely.transform(turned, lambda points: np.round(points, decimals))
+    return rounded
+
+
+@pytest.mark.parametrize("origin", [(0.0, 0.0), (650000.0, 480000.0), FAR])
+@pytest.mark.parametrize(("n", "decimals"), [(3, 3), (4, 2), (4, 3), (6, 5), (6, 7)])
+def test_streets_meet_in_their_middles(n: int, decimals: int, origin: tuple[float, float]) -> None:
+    """Rounding turns edges that face each other by next to nothing, and no vertex shoots off."""
+    corners = 4 + 4 * (n - 1) ** 2
+    length = 2 * n * 50 * (n - 1) + corners * 6 * np.sqrt(2)
+    slack = 10.0 * corners * 10.0**-decimals
+    for angle in np.arange(2.37, 90.0, 3.0):
+        found = roof_of(streets(n, decimals, angle, origin))
+        ridges = shapely.linestrings(found.points[found.ridges])
+        assert shapely.length(ridges).sum() == pytest.approx(length, abs=slack)
+        assert found.time.max() == pytest.approx(6, abs=10.0**-decimals)
+
+
+@pytest.mark.parametrize("angle", [1e-12, -1e-11, 1e-10, -1e-10, 4e-10, -4e-10])
+def test_edges_that_face_each_other_may_meet_later_at_one_end(angle: float) -> None:
+    corners = [(0, 0), (16, 0), (16, 2 - 8 * angle), (8, 2), (0, 2 + 8 * angle)]
+    for area in (Polygon(corners[:3] + corners[4:]), Polygon(corners)):
+        mesh, _, _ = unit_mesh(boundary_of(*rings_of_area(area)).mesh)
+        found = faces_of(mesh, straight_skeleton(mesh))
+        assert found.is_sound
+        assert found.miss < 1e-14
+
+
 @pytest.mark.parametrize("beta", [0.01, 0.5, 2.0, 3.1])
 def test_wedge_meets_in_its_incentre(beta: float) -> None:
     area = wedge(beta, 5.0)

@@ -34,12 +34,14 @@ from midrib.kernels.triangulation import flip, next_side, previous_side
 from midrib.kernels.wavefront import (
     BACK,
     EDGE,
+    FACING,
     FLIP,
     NEAR,
     NO,
     ON,
     SPLIT,
     Wavefront,
+    descent,
     edge_length,
     longest_side,
     place,
@@ -94,6 +96,18 @@ def settle(w: Wavefront, e: int, a: int, now: float) -> None:
 
 
 @njit(borrows=True)
+def rush_end(w: Wavefront, a: int, fast: int, k: int, now: float) -> float:
+    """When vertex a meets the line of edge k, which faces the edge that ``fast`` rushes along to a.
+
+    They face each other but for an angle, and meet here that much later than where it set out.
+    """
+    if w.rush[fast] == NO or w.rush[a] != NO or abs(w.turn[fast] - np.pi) > FACING:
+        return now
+    height, rate = descent(w, a, k, now)
+    return now + height / rate if rate > 0.0 else now
+
+
+@njit(borrows=True)
 def close_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
     """Make one vertex of the two ends of an edge without length; return how many triangles go."""
     before, after = previous_side(e), next_side(e)
@@ -103,8 +117,10 @@ def close_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
     requeue(w, e // 3)
     # Of a fast vertex time says little about where it is, of one that rushes nothing.
     is_slow = w.rush[a] == NO and (w.rush[b] != NO or abs(w.tau[a]) < abs(w.tau[b]))
-    px, py = place(w, a if is_slow else b, now)
-    node = add_node(s, px, py, now)
+    slow, fast, k = (a, b, w.after[b]) if is_slow else (b, a, w.before[a])
+    t = rush_end(w, slow, fast, k, now)
+    px, py = place(w, slow, t)
+    node = add_node(s, px, py, t)
     end_vertex(w, s, a, node)
     end_vertex(w, s, b, node)
     if beyond < 0 and onward < 0:
@@ -113,7 +129,7 @@ def close_edge(w: Wavefront, s: Traces, e: int, now: float) -> int:
         if (
             w.rush[c] != NO and length(cx - px, cy - py) > NEAR
         ):  # two edges that face each other: a ridge
-            other = add_node(s, cx, cy, now)
+            other = add_node(s, cx, cy, w.birth[c])
             add_arc(s, node, other, w.edge[before], w.edge[after])
         end_vertex(w, s, c, other)
         return 1

@@ -17,7 +17,9 @@ tau         tan(turn / 2) where an edge turns into the next one; a vertex moves 
 
 A vertex between edges that face each other has no speed: it *rushes* along the shorter of the two
 in no time. So does one that has turned too far, which happens where edges of no length go one
-after the other.
+after the other. To rounding edges face each other that are parallel in a file: far from the origin
+the last digits of coordinates turn an edge by 1e-12 and more, and a vertex that fast, 1e12, would
+be anywhere.
 
 Sources: O. Aichholzer, F. Aurenhammer, Straight Skeletons for General Polygonal Figures in the
 Plane, 1996 (triangles); P. Palfrader, M. Held, S. Huber, On Computing Straight Skeletons by Means
@@ -47,7 +49,8 @@ __all__ = [
 
 EDGE, SPLIT, FLIP = 0, 1, 2  # an edge has no length; a vertex meets an edge; or meets a spoke
 NEAR = 2.0**-40  # of the extent, which is 1: what is as near as this is together
-FACING = 2.0**-40  # radians; the angle between edges that face each other
+FACING = 2.0**-30  # radians; edges that face each other meet all along, but for rounding
+APART = 2.0**-20  # radians; edges turned by less say nothing about where they meet
 NO, BACK, ON = 0, 1, 2  # which edge a vertex rushes along: none, the one before it, the one after
 AT_ONCE = -1.0
 
@@ -109,7 +112,7 @@ def set_motion(w: Wavefront, a: int, about: float) -> None:
     for sign in (1.0, -1.0):
         mx, my = w.nx[f] + sign * w.nx[g], w.ny[f] + sign * w.ny[g]
         squared = mx * mx + my * my
-        if squared > FACING:
+        if squared > APART * APART:
             miss = (reach_f + sign * reach_g - mx * w.x[a] - my * w.y[a]) / squared
             w.x[a] += miss * mx
             w.y[a] += miss * my
@@ -154,6 +157,14 @@ def higher_spoke(w: Wavefront, e: int, now: float) -> int:
 
 
 @njit(borrows=True)
+def descent(w: Wavefront, a: int, k: int, now: float) -> tuple[float, float]:
+    """How high a vertex is over the line of edge k, and by how much less in a unit of time."""
+    x, y = place(w, a, now)
+    height = w.nx[k] * x + w.ny[k] * y - w.reach[k] - now
+    return height, 1.0 - w.nx[k] * w.u[a] - w.ny[k] * w.v[a]
+
+
+@njit(borrows=True)
 def meeting(w: Wavefront, e: int, now: float) -> tuple[float, int, int]:
     """When the vertex across from the edge on half-edge e meets its line, and what it meets.
 
@@ -161,9 +172,7 @@ def meeting(w: Wavefront, e: int, now: float) -> tuple[float, int, int]:
     spoke is swapped at once.
     """
     k, c = w.edge[e], w.tri[previous_side(e)]
-    cx, cy = place(w, c, now)
-    height = w.nx[k] * cx + w.ny[k] * cy - w.reach[k] - now
-    rate = 1.0 - w.nx[k] * w.u[c] - w.ny[k] * w.v[c]
+    height, rate = descent(w, c, k, now)
     tau = w.tau[w.tri[e]] + w.tau[w.tri[next_side(e)]]
     begins = tau < 0.0 and edge_length(w, e, now) <= NEAR * (1.0 - tau)
     if height < -NEAR and (begins or rate <= 0.0):
