@@ -135,6 +135,61 @@ def test_unit_of_a_las_file_is_that_of_its_reference_system(tmp_path: Path) -> N
     assert open_cloud(tmp_path / "b.las").metres == pytest.approx(0.304800609601219)
 
 
+FOOT, SURVEY_FOOT = 0.3048, 1200.0 / 3937.0
+SYSTEMS: dict[str, tuple[str | dict[int, int], float]] = {
+    # What a file says, and how many units of x and y one of z has.
+    "wkt_feet_over_metres": ("EPSG:6344+6360", SURVEY_FOOT),
+    "wkt_metres_over_feet": ("EPSG:2264+5703", 1.0 / SURVEY_FOOT),
+    "wkt_metres": ("EPSG:6344+5703", 1.0),
+    "wkt_feet": ("EPSG:2264+6360", 1.0),
+    "wkt_plane": ("EPSG:6344", 1.0),
+    "keys_of_units": ({3072: 6344, 4099: 9003}, SURVEY_FOOT),
+    "keys_of_systems": ({3072: 6344, 4096: 6360}, SURVEY_FOOT),
+    "keys_at_odds": ({3072: 6344, 4096: 5703, 4099: 9002}, FOOT),
+    "keys_without_a_system": ({3072: 32767, 3076: 9002, 4099: 9001}, 1.0 / FOOT),
+    "keys_of_the_plane": ({3072: 6344}, 1.0),
+    "keys_of_heights_only": ({4099: 9003}, 1.0),
+}
+
+
+def las_in(path: Path, system: str | dict[int, int]) -> None:
+    """Write POINTS as a file that says it is in a reference system."""
+    laspy, pyproj = pytest.importorskip("laspy"), pytest.importorskip("pyproj")
+    header = laspy.LasHeader(point_format=6, version="1.4")
+    header.scales, header.offsets = np.full(3, 1e-4), FAR
+    if isinstance(system, str):
+        wkt = pyproj.CRS(system).to_wkt("WKT1_GDAL")
+        header.vlrs.append(laspy.vlrs.known.WktCoordinateSystemVlr(wkt))
+    else:
+        words = [1, 1, 0, len(system)]
+        for key, value in sorted(system.items()):
+            words += [key, 0, 1, value]
+        keys = laspy.vlrs.known.GeoKeyDirectoryVlr()
+        keys.parse_record_data(np.array(words, dtype="<u2").tobytes())
+        header.vlrs.append(keys)
+    cloud = laspy.LasData(header)
+    cloud.x, cloud.y, cloud.z = POINTS.T
+    cloud.write(path)
+
+
+@pytest.mark.parametrize("case", SYSTEMS)
+def test_heights_of_a_las_file_are_in_the_unit_of_its_plane(case: str, tmp_path: Path) -> None:
+    system, stretch = SYSTEMS[case]
+    las_in(tmp_path / "a.las", system)
+    cloud = open_cloud(tmp_path / "a.las")
+    expected = POINTS * [1.0, 1.0, stretch]
+    assert np.concatenate(list(cloud.chunks())) == pytest.approx(expected, abs=4e-4)
+    assert np.concatenate(list(cloud.some(len(POINTS))))[:, :3] == pytest.approx(expected, abs=4e-4)
+    # Heights that were turned are no longer in the vertical system of the file.
+    assert stretch == 1.0 or "Compound" not in str(cloud.crs)
+
+
+def test_heights_of_a_las_file_in_an_unknown_unit_are_refused(tmp_path: Path) -> None:
+    las_in(tmp_path / "a.las", {3072: 6344, 4099: 9036})
+    with pytest.raises(ParameterError, match=r"heights in the unit EPSG:9036, expected one of"):
+        open_cloud(tmp_path / "a.las")
+
+
 BROKEN = {
     "missing": ("a.las", None, "does not exist"),
     "ending": ("a.docx", b"x", "ends in '.docx', expected .las, .laz"),
