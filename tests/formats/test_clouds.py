@@ -8,6 +8,7 @@ import pytest
 
 from midrib.errors import ParameterError
 from midrib.formats.clouds import open_cloud
+from midrib.towers.cloud import Tally
 from midrib.types import Floats
 
 FAR = np.array([6_482_000.0, 5_617_000.0, 150.0])
@@ -234,3 +235,41 @@ def test_arrays_of_another_shape_are_refused(tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", np.zeros((5, 2)))
     with pytest.raises(ParameterError, match=r"shape \(5, 2\), expected numbers \(n, 3\)"):
         open_cloud(tmp_path / "a.npy")
+
+
+def rows_of(points: Floats) -> list[str]:
+    """Points as rows of a text file."""
+    return [f"{x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
+
+
+@pytest.mark.parametrize("odd", ["1 2", "1 2 3 4", "so it ends"])
+def test_rows_of_another_width_are_points_without_coordinates(odd: str, tmp_path: Path) -> None:
+    rows = rows_of(POINTS)
+    path = tmp_path / "a.xyz"
+    for k in range(7):
+        rows.insert(100 * k + 50, odd if odd != "so it ends" else "so it all ends")
+    path.write_text("\n".join(rows), encoding="ascii")
+    tally = Tally()
+    kept = np.concatenate(list(tally.over(open_cloud(path).chunks())))
+    assert np.array_equal(kept, POINTS)
+    assert tally.unusable == 7
+
+
+def test_a_text_with_many_rows_of_another_width_is_refused(tmp_path: Path) -> None:
+    rows = rows_of(POINTS)
+    rows[200:211] = ["1.5 2.5 3.5 4.5"] * 11
+    path = tmp_path / "a.xyz"
+    path.write_text("\n".join(rows), encoding="ascii")
+    with pytest.raises(ParameterError, match=r"has 11 of 1,000 rows .*'1.5 2.5 3.5 4.5', expec"):
+        list(open_cloud(path).chunks())
+
+
+def test_comments_and_counts_of_scans_are_no_rows(tmp_path: Path) -> None:
+    scans = [[str(len(scan)), *rows_of(scan)] for scan in np.array_split(POINTS, 50)]
+    rows = [row for scan in scans for row in scan]
+    text = "\n".join([*rows, "# made by hand", ""])
+    for ending in ("pts", "xyz"):
+        (tmp_path / f"a.{ending}").write_text(text, encoding="ascii")
+    assert np.array_equal(read(tmp_path / "a.pts"), POINTS)
+    with pytest.raises(ParameterError, match=r"has 49 of 1,049 rows"):
+        list(open_cloud(tmp_path / "a.xyz").chunks())
