@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -273,3 +274,71 @@ def test_comments_and_counts_of_scans_are_no_rows(tmp_path: Path) -> None:
     assert np.array_equal(read(tmp_path / "a.pts"), POINTS)
     with pytest.raises(ParameterError, match=r"has 49 of 1,049 rows"):
         list(open_cloud(tmp_path / "a.xyz").chunks())
+
+
+Columns = dict[str, "np.ndarray[Any, Any]"]
+
+
+def e57_of(path: Path, columns: Columns, translation: Floats) -> None:
+    """Write one scan of any fields, which the writer of pye57 does not know."""
+    pye57 = pytest.importorskip("pye57")
+    from pye57 import libe57
+
+    file = pye57.E57(str(path), mode="w")
+    image = file.image_file
+    scan, prototype, pose, shift = (libe57.StructureNode(image) for _ in range(4))
+    scan.set("guid", libe57.StringNode(image, "{a}"))
+    for name, value in zip("xyz", translation, strict=True):
+        shift.set(name, libe57.FloatNode(image, value))
+    pose.set("translation", shift)
+    scan.set("pose", pose)
+    buffers = libe57.VectorSourceDestBuffer()
+    kept = []  # buffers point into these
+    for name, column in columns.items():
+        is_whole = column.dtype.kind == "i"
+        node = (
+            libe57.IntegerNode(image, 0, 0, 2)
+            if is_whole
+            else libe57.FloatNode(image, 0.0, libe57.E57_DOUBLE, -1e9, 1e9)
+        )
+        prototype.set(name, node)
+        kept.append(np.ascontiguousarray(column, dtype="i1" if is_whole else "f8"))
+        buffers.append(libe57.SourceDestBuffer(image, name, kept[-1], len(column), True, True))
+    points = libe57.CompressedVectorNode(image, prototype, libe57.VectorNode(image, True))
+    scan.set("points", points)
+    file.data3d.append(scan)
+    writer = points.writer(buffers)
+    writer.write(len(kept[0]))
+    writer.close()
+    file.close()
+
+
+def test_spherical_points_of_an_e57_file_are_placed(tmp_path: Path) -> None:
+    scanner = FAR + np.array((20.0, 30.0, 25.0))  # points are all around it, above and below
+    x, y, z = (POINTS - scanner).T
+    invalid = np.arange(len(POINTS)) % 5 == 0
+    columns = {
+        "sphericalRange": np.where(invalid, 0.0, np.hypot(np.hypot(x, y), z)),
+        "sphericalAzimuth": np.arctan2(y, x),
+        "sphericalElevation": np.arctan2(z, np.hypot(x, y)),
+        "sphericalInvalidState": np.where(invalid, 2, 0),
+    }
+    e57_of(tmp_path / "a.e57", columns, scanner)
+    found = np.concatenate(list(open_cloud(tmp_path / "a.e57").chunks()))
+    assert found == pytest.approx(POINTS[~invalid], rel=0.0, abs=5e-9)
+
+
+def test_an_e57_file_without_coordinates_is_refused(tmp_path: Path) -> None:
+    columns = {"cartesianX": POINTS[:, 0], "sphericalRange": POINTS[:, 1]}
+    e57_of(tmp_path / "a.e57", columns, FAR)
+    with pytest.raises(ParameterError, match=r"scan 0 has the fields cartesianX, sphericalRange, "):
+        list(open_cloud(tmp_path / "a.e57").chunks())
+
+
+def test_bytes_that_are_no_text_are_told_in_a_sentence(tmp_path: Path) -> None:
+    path = tmp_path / "a.laz"
+    las(path)
+    whole = path.read_bytes()
+    path.write_bytes(whole[:229] + b"\xb5" * (len(whole) - 229))
+    with pytest.raises(ParameterError, match=r"bytes that are no UTF-8 text .* no \.laz file"):
+        list(open_cloud(path).chunks())
