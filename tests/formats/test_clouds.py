@@ -1,5 +1,7 @@
 """Point clouds: what goes into a file comes back, and broken files are told in a sentence."""
 
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -92,6 +94,11 @@ WRITERS: dict[str, tuple[str, Callable[[Path], None], float]] = {
     "comments": ("a.txt", text("{x!r} {y!r} {z!r}", "# made by hand\n\n// twice\n"), 0.0),
     "count": ("a.pts", text("{x!r} {y!r} {z!r} 12", "1000\n"), 0.0),
     "npy": ("a.npy", lambda path: np.save(path, POINTS), 0.0),
+    "npy_columns": ("a.npy", lambda path: np.save(path, np.asfortranarray(POINTS)), 0.0),
+    "npy_big": ("a.npy", lambda path: np.save(path, POINTS.astype(">f8")), 0.0),
+    "npy_whole": ("a.npy", lambda path: np.save(path, POINTS.astype(np.int32)), 1.0),
+    "npz_packed": ("a.npz", lambda path: np.savez_compressed(path, POINTS), 0.0),
+    "npz_columns": ("a.npz", lambda path: np.savez_compressed(path, POINTS.T.copy().T), 0.0),
     "npz": ("a.npz", lambda path: np.savez(path, other=np.zeros(3), points=POINTS), 0.0),
 }
 
@@ -215,6 +222,7 @@ BROKEN = {
     "word": ("a.csv", b"1.0,2.0,3.0\n1.0,oops,3.0\n", "has 'oops' for a coordinate"),
     "empty": ("a.xyz", b"", "no line with three numbers"),
     "npy": ("a.npy", b"hello", "cannot be read"),
+    "no_npz": ("a.npz", b"hello", "cannot be read"),
 }
 
 
@@ -234,7 +242,7 @@ def test_broken_files_are_told_in_a_sentence(case: str, tmp_path: Path) -> None:
 
 def test_arrays_of_another_shape_are_refused(tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", np.zeros((5, 2)))
-    with pytest.raises(ParameterError, match=r"shape \(5, 2\), expected numbers \(n, 3\)"):
+    with pytest.raises(ParameterError, match=r"\(5, 2\) of float64, expected numbers \(n, 3\)"):
         open_cloud(tmp_path / "a.npy")
 
 
@@ -342,3 +350,34 @@ def test_bytes_that_are_no_text_are_told_in_a_sentence(tmp_path: Path) -> None:
     path.write_bytes(whole[:229] + b"\xb5" * (len(whole) - 229))
     with pytest.raises(ParameterError, match=r"bytes that are no UTF-8 text .* no \.laz file"):
         list(open_cloud(path).chunks())
+
+
+@pytest.mark.parametrize("ending", ["npy", "npz"])
+def test_memory_for_arrays_does_not_depend_on_their_size(ending: str, tmp_path: Path) -> None:
+    # Own numbers and pages of a mapped file both: in a process that reads and does nothing else.
+    resource = pytest.importorskip("resource")
+    assert resource
+    code = (
+        "import sys, resource, pathlib\n"
+        "from midrib.formats.clouds import open_cloud\n"
+        "peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss\n"
+        "cloud = open_cloud(pathlib.Path(sys.argv[1]))\n"
+        "next(iter(cloud.chunks())).sum()\n"
+        "before = peak()\n"
+        "total = sum(len(chunk) for chunk in cloud.chunks() if chunk.sum() == 0.0)\n"
+        "print(total, (peak() - before) * (1 if sys.platform == 'darwin' else 1024))\n"
+    )
+    path = tmp_path / f"a.{ending}"
+    n = 6_000_000
+    (np.save if ending == "npy" else np.savez)(path, np.zeros((n, 3)))
+    told = subprocess.run([sys.executable, "-c", code, path], capture_output=True, check=True)
+    total, grown = map(int, told.stdout.split())
+    assert total == n
+    assert grown < 0.4 * path.stat().st_size
+
+
+def test_an_array_that_is_cut_off_is_told(tmp_path: Path) -> None:
+    np.save(tmp_path / "a.npy", POINTS)
+    (tmp_path / "b.npy").write_bytes((tmp_path / "a.npy").read_bytes()[:-8])
+    with pytest.raises(ParameterError, match="it ends before the last of 1000 points"):
+        list(open_cloud(tmp_path / "b.npy").chunks())
