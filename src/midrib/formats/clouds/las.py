@@ -16,7 +16,7 @@ from midrib.errors import ParameterError
 from midrib.formats.clouds.common import refusing
 from midrib.formats.crs import definition
 from midrib.formats.units import horizontal, is_geographic, unit_of, vertical_unit_of
-from midrib.towers.cloud import CHUNK, spots_in
+from midrib.towers.cloud import CHUNK, DOUBLES, spots_in
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -51,6 +51,7 @@ class LasCloud:
     """A LAS or LAZ file."""
 
     has_stations = True  # points have a number for it; whether it is used, they tell
+    types: tuple[str, ...] = DOUBLES  # of whole numbers, but these have a step that the file chose
 
     def __init__(self, path: Path) -> None:
         check_library("laspy", "a LAS or LAZ file", "towers")
