@@ -9,8 +9,9 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from contextlib import ExitStack
+from io import BufferedIOBase
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import numpy as np
 
@@ -68,11 +69,12 @@ class NumpyCloud:
                 found.append(table_of(self.opened(stack, member), member))
         return found
 
-    def opened(self, stack: ExitStack, member: str) -> IO[bytes]:
+    def opened(self, stack: ExitStack, member: str) -> BufferedIOBase:
         """Open an array to be read from its header on."""
         if not self.is_archive:
             return stack.enter_context(self.path.open("rb"))
-        return stack.enter_context(stack.enter_context(zipfile.ZipFile(self.path)).open(member))
+        archive = stack.enter_context(zipfile.ZipFile(self.path))
+        return stack.enter_context(cast("zipfile.ZipExtFile", archive.open(member)))
 
     def chunks(self, *, with_stations: bool = False) -> Iterator["Floats"]:  # noqa: ARG002
         """Points (n, 3), a chunk at a time; no station is known."""
@@ -92,19 +94,17 @@ class NumpyCloud:
         with refusing(self.path, *self.errors), ExitStack() as stack:
             files = [self.opened(stack, table.member) for _ in range(rows)]
             for first, count in spots:
-                points = np.empty((count, 3))
-                for k, file in enumerate(files):
+                parts = [np.empty((count, columns), dtype=table.kind) for _ in files]
+                for k, (file, part) in enumerate(zip(files, parts, strict=True)):
                     file.seek(table.start + (k * self.count + first) * step)
-                    block = file.read(count * step)
-                    if len(block) < count * step:
+                    if file.readinto(part.view(np.uint8).data) < count * step:
                         msg = f"it ends before the last of {self.count} points"
                         raise ValueError(msg)
-                    numbers = np.frombuffer(block, dtype=table.kind).reshape(count, columns)
-                    points[:, k : k + columns] = numbers
-                yield points
+                points = np.hstack(parts) if table.by_columns else parts[0]
+                yield points.astype(np.float64, copy=False)
 
 
-def table_of(file: IO[bytes], member: str) -> Table:
+def table_of(file: BufferedIOBase, member: str) -> Table:
     """Read the header of an array.
 
     Raises
