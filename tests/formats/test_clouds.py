@@ -269,7 +269,7 @@ def test_a_text_with_many_rows_of_another_width_is_refused(tmp_path: Path) -> No
     rows[200:211] = ["1.5 2.5 3.5 4.5"] * 11
     path = tmp_path / "a.xyz"
     path.write_text("\n".join(rows), encoding="ascii")
-    with pytest.raises(ParameterError, match=r"has 11 of 1,000 rows .*'1.5 2.5 3.5 4.5', expec"):
+    with pytest.raises(ParameterError, match=r"has 11 of 1,000 rows .*'1.5 2.5 3.5 4.5', expected"):
         list(open_cloud(path).chunks())
 
 
