@@ -381,3 +381,14 @@ def test_an_array_that_is_cut_off_is_told(tmp_path: Path) -> None:
     (tmp_path / "b.npy").write_bytes((tmp_path / "a.npy").read_bytes()[:-8])
     with pytest.raises(ParameterError, match="it ends before the last of 1000 points"):
         list(open_cloud(tmp_path / "b.npy").chunks())
+
+
+def test_a_damaged_laz_file_does_not_ask_for_all_memory(tmp_path: Path) -> None:
+    las(tmp_path / "a.laz")
+    whole = bytearray((tmp_path / "a.laz").read_bytes())
+    start = int.from_bytes(whole[96:100], "little")  # of points, LAS 1.2
+    table = int.from_bytes(whole[start : start + 8], "little")
+    whole[table + 4 : table + 8] = b"\xff\xff\xff\xff"
+    (tmp_path / "b.laz").write_bytes(whole)
+    with pytest.raises(ParameterError, match=r"4,294,967,295 packs of points in [\d,]+ bytes"):
+        open_cloud(tmp_path / "b.laz")

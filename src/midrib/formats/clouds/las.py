@@ -31,6 +31,7 @@ UNITS = {9001: 1.0, 9002: 0.3048, 9003: 1200.0 / 3937.0}  # EPSG: metre, foot, U
 USER_DEFINED = 32767
 STATION = "point_source_id"  # LAS 1.4, 2.6: the file, flight line or station a point is from
 PACKED = 50_000  # points that LAZ packs together, and only together unpacks
+PACKED_LEAST = 20  # bytes: the first point of a pack is not compressed, and none is shorter
 PACKS = 40  # of these, that a sample is taken from
 
 
@@ -66,6 +67,8 @@ class LasCloud:
         with refusing(path, *self.errors), laspy.open(path) as reader:
             header = reader.header
             self.count = int(header.point_count)
+            if header.are_points_compressed:
+                check_packs(path, header.offset_to_point_data)
             reference = reference_of(header)
             self.crs, self.metres, self.stretch = *reference[:2], reference.stretch
 
@@ -105,6 +108,30 @@ class LasCloud:
         if with_stations:
             table[:, 3] = raw[STATION]
         return table
+
+
+def check_packs(path: Path, start: int) -> None:
+    """Refuse a damaged LAZ file that says it has more packs of points than fit into it.
+
+    The library that unpacks them would ask for their memory, and end the process without it.
+
+    Raises
+    ------
+    ValueError
+        If there are too many.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        file.seek(start)
+        table = int.from_bytes(file.read(8), "little", signed=True)
+        if table == -1:  # written at the end, by who could not go back
+            file.seek(max(size - 8, 0))
+            table = int.from_bytes(file.read(8), "little", signed=True)
+        file.seek(max(table, 0) + 4)  # after a version
+        packs = int.from_bytes(file.read(4), "little")
+    if packs * PACKED_LEAST > size:
+        msg = f"it says it has {packs:,} packs of points in {size:,} bytes, it is damaged"
+        raise ValueError(msg)
 
 
 def reference_of(header: Any) -> Reference:
