@@ -9,6 +9,7 @@ import pytest
 from midrib import tower_axis
 from midrib.errors import ParameterError
 from midrib.figures.tower_report import summary_lines
+from midrib.towers.cloud import check_spacing
 from midrib.types import Floats
 from tests.towers.scans import CONE
 
@@ -81,3 +82,40 @@ def test_decimal_commas_between_semicolons_are_read(tmp_path: Path) -> None:
     axis = tower_axis(path)
     expected = tower_axis(np.round(points, 5))
     assert axis.points == pytest.approx(expected.points, abs=1e-9)
+
+
+def write_ply(path: Path, points: Any) -> None:
+    """Write single numbers."""
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
+    head += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
+    path.write_bytes(head.encode() + points.astype("<f4").tobytes())
+
+
+@pytest.mark.parametrize("door", ["array", "npy", "npz", "ply"])
+def test_single_numbers_of_a_map_grid_are_refused(door: str, tmp_path: Path) -> None:
+    points = (CONE.points() + np.array((500_000.0, 5_800_000.0, 100.0))).astype(np.float32)
+    path = tmp_path / f"scan.{door}"
+    if door == "ply":
+        write_ply(path, points)
+    elif door != "array":
+        (np.save if door == "npy" else np.savez)(path, points)
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(points if door == "array" else path)
+    expected = "has y of about 5,800,000 stored as float32, whose numbers there are 500 mm apart"
+    assert expected in str(caught.value)
+    assert "subtract an offset before storing, or store float64" in str(caught.value)
+
+
+def test_single_numbers_near_the_origin_are_as_good_as_doubles() -> None:
+    points = CONE.points()
+    axis = tower_axis(points.astype(np.float32))
+    assert axis.points == pytest.approx(tower_axis(points).points, abs=1e-4)
+
+
+def test_steps_of_single_numbers_are_measured_in_metres() -> None:
+    # 30,000 mm: the step is 0.002 of the unit, and of no matter.
+    sample = np.full((100, 3), 30_000.0)
+    check_spacing(sample, ("f4", "f4", "f4"), 1000.0, "source")
+    check_spacing(sample, ("f8", "i4", "f8"), 1.0, "source")
+    with pytest.raises(ParameterError, match=r"source has y of about 30,000 .* 1\.95 mm apart"):
+        check_spacing(sample, ("f8", "f4", "f8"), 1.0, "source")

@@ -20,6 +20,7 @@ __all__ = [
     "is_wgs84",
     "length_in",
     "unit_of",
+    "vertical_unit_of",
 ]
 
 METRES = {
@@ -98,7 +99,31 @@ def unit_of(crs: str | None) -> Unit | None:
     if is_geographic(crs):
         return METRE
     axes = horizontal(crs).get("coordinate_system", {}).get("axis", [])
-    unit = axes[0].get("unit") if axes else None
+    return unit_along(axes[0]) if axes else None
+
+
+def vertical_unit_of(crs: str | None) -> Unit | None:
+    """Return the unit of heights; None if a CRS has no vertical axis, or does not tell its unit.
+
+    Examples
+    --------
+    >>> vertical_unit_of('{"type": "VerticalCRS", "coordinate_system": {"axis": [\
+    ...     {"direction": "up", "unit": "metre"}]}}')
+    Unit(name='m', metres=1.0)
+    """
+    parts: list[dict[str, Any]] = [] if crs is None else [json.loads(crs)]
+    for part in parts:  # grows by what the parts consist of
+        parts += part.get("components", [])
+        parts += [part["source_crs"]] if "source_crs" in part else []
+        for axis in part.get("coordinate_system", {}).get("axis", []):
+            if axis.get("direction") in {"up", "down"}:
+                return unit_along(axis)
+    return None
+
+
+def unit_along(axis: dict[str, Any]) -> Unit | None:
+    """Return the unit of an axis of a CRS, if it is one of length."""
+    unit = axis.get("unit")
     if unit == "metre":
         return METRE
     if isinstance(unit, dict) and "conversion_factor" in unit:

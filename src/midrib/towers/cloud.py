@@ -12,11 +12,23 @@ if TYPE_CHECKING:
 
     from midrib.types import Bools, Floats
 
-__all__ = ["CHUNK", "ArrayCloud", "Cloud", "InOrder", "Tally", "sample_of", "spots_in"]
+__all__ = [
+    "CHUNK",
+    "DOUBLES",
+    "ArrayCloud",
+    "Cloud",
+    "InOrder",
+    "Tally",
+    "check_spacing",
+    "sample_of",
+    "spots_in",
+]
 
 CHUNK = 500_000  # points
 PIECE = 100  # points read at one place for a sample, where places are free to choose
 LEAST = 100  # points of a cloud that can tell an axis
+DOUBLES = ("f8", "f8", "f8")
+COARSEST = 1e-3  # metres: steps between numbers that a scan's own noise hides
 
 
 class Cloud(Protocol):
@@ -33,6 +45,10 @@ class Cloud(Protocol):
     @property
     def crs(self) -> str | None:
         """Reference system of the coordinates, as WKT or EPSG code."""
+
+    @property
+    def types(self) -> tuple[str, ...]:
+        """NumPy's names of the types of number in which x, y and z are stored."""
 
     @property
     def name(self) -> str:
@@ -56,6 +72,7 @@ class InOrder:
     """What a cloud that can only be read from its beginning does."""
 
     has_stations: bool = False
+    types: tuple[str, ...] = DOUBLES
 
     def chunks(self, *, with_stations: bool = False) -> "Iterator[Floats]":
         """Points, a chunk at a time."""
@@ -102,7 +119,8 @@ class ArrayCloud:
 
     def __init__(self, points: object, stations: object = None) -> None:
         try:
-            table = np.asarray(points, dtype=np.float64)
+            stored = np.asarray(points)
+            table = np.asarray(stored, dtype=np.float64)
         except (TypeError, ValueError) as error:
             msg = f"source is {shown(points)}, expected a path or an array (n, 3) of numbers"
             raise GeometryTypeError(msg) from error
@@ -110,6 +128,7 @@ class ArrayCloud:
             msg = f"source has the shape {table.shape}, expected (n, 3): x, y, z"
             raise GeometryTypeError(msg)
         self.points = table
+        self.types: tuple[str, ...] = (stored.dtype.str,) * 3
         self.stations = None if stations is None else np.asarray(stations)
         if self.stations is not None and (
             self.stations.shape != (len(table),) or self.stations.dtype.kind not in "iu"
@@ -184,3 +203,40 @@ def sample_of(chunks: "Iterable[Floats]", most: int, name: str) -> "tuple[Floats
         msg = f"{name} has {len(points)} points, expected at least {LEAST}"
         raise ParameterError(msg)
     return points, came
+
+
+def check_spacing(sample: "Floats", types: tuple[str, ...], unit: float, name: str) -> None:
+    """Refuse coordinates that are too large for the type of number in which they are stored.
+
+    A float32 has 24 bits: at 6,000,000 m in a map grid these are half a metre apart.
+
+    Parameters
+    ----------
+    sample : ndarray, shape (n, 3)
+    types : tuple of str
+        Types in which x, y and z are stored.
+    unit : float
+        Coordinate units in a metre.
+    name : str
+        What to call the cloud.
+
+    Raises
+    ------
+    ParameterError
+        If numbers as large as the coordinates are more than a millimetre apart.
+    """
+    # Half of the points are as far out: some strays would not matter.
+    usual = np.median(np.abs(sample), axis=0)
+    apart = [
+        float(np.spacing(value.astype(kind))) / unit if np.dtype(kind).kind == "f" else 0.0
+        for value, kind in zip(usual, types, strict=True)
+    ]
+    worst = int(np.argmax(apart))
+    if apart[worst] > COARSEST:
+        kind = np.dtype(types[worst]).name
+        msg = (
+            f"{name} has {'xyz'[worst]} of about {usual[worst]:,.0f} stored as {kind}, whose "
+            f"numbers there are {1000.0 * apart[worst]:.3g} mm apart, expected at most "
+            f"{1000.0 * COARSEST:g} mm; subtract an offset before storing, or store float64"
+        )
+        raise ParameterError(msg)

@@ -14,7 +14,7 @@ import numpy as np
 from midrib.checks import check_library, is_number, shown
 from midrib.errors import ParameterError
 from midrib.towers.cells import Cells, Reference, cells_of, grid_for, reference_of
-from midrib.towers.cloud import Cloud, Tally, sample_of
+from midrib.towers.cloud import Cloud, Tally, check_spacing, sample_of
 from midrib.towers.faces import rough_polygon
 from midrib.towers.gate import bands_of, shape_of
 from midrib.towers.joint import Fit, fit_cells
@@ -165,6 +165,7 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     unit = options.unit
     sample, came = sample_of(track(cloud.some(SAMPLE), "sampling"), SAMPLE, cloud.name)
     labels, sample = labels_in(sample), np.ascontiguousarray(sample[:, :3])
+    check_spacing(sample, cloud.types, unit, cloud.name)
     check_height(sample, unit, cloud.name)
     rough = shape_found(sample, options)
     heights = rough.frame.inwards(sample)[:, 2]

@@ -61,7 +61,7 @@ class Aligned:
     def __init__(self, cloud: "Cloud", stations: list[Station]) -> None:
         self.cloud = cloud
         self.count, self.metres = cloud.count, cloud.metres
-        self.crs, self.name = cloud.crs, cloud.name
+        self.crs, self.name, self.types = cloud.crs, cloud.name, cloud.types
         order = sorted(stations)
         self.labels = np.array([station.label for station in order], dtype=np.float64)
         self.shifts = np.array([(station.x, station.y, 0.0) for station in order])

@@ -28,5 +28,8 @@ def refusing(path: Path, *errors: type[Exception]) -> Iterator[None]:
         raise
     except kinds as error:
         reason = " ".join(str(error).split()) or type(error).__name__
+        if isinstance(error, UnicodeDecodeError):
+            reason = "it has bytes that are no UTF-8 text where text belongs; is it damaged, or no "
+            reason += f"{path.suffix.lower()} file?"
         msg = f"CLOUD {str(path)!r} cannot be read: {reason}"
         raise ParameterError(msg) from error

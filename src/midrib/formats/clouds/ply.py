@@ -8,7 +8,7 @@ import numpy as np
 
 from midrib.errors import ParameterError
 from midrib.formats.clouds.common import STATIONS, refusing
-from midrib.towers.cloud import CHUNK, InOrder
+from midrib.towers.cloud import CHUNK, DOUBLES, InOrder
 
 if TYPE_CHECKING:
     from midrib.types import Floats
@@ -48,6 +48,9 @@ class PlyCloud(InOrder):
         if missing:
             msg = f"{self.name} has no property {min(missing)}, expected x, y and z of vertices"
             raise ParameterError(msg)
+        kinds = dict(self.header.fields)
+        # Digits of a text are as many as whoever wrote it wanted.
+        self.types = DOUBLES if self.header.form == "ascii" else tuple(kinds[c] for c in "xyz")
         self.station = next((name for name, _ in self.header.fields if name in STATIONS), "")
         self.has_stations = self.station != ""
 

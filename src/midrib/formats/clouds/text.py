@@ -2,6 +2,9 @@
 
 Columns x, y, z (or easting, northing, height) go by their names where there is a heading; else
 they are the first three columns of numbers, or the three after a leading column of names.
+
+A row with another number of columns is a point without coordinates, unless it is a comment or, in
+.pts, the number of points of a scan that follows.
 """
 
 import io
@@ -29,6 +32,7 @@ NAMES = (
 PROBED, BLOCK = 60, 1 << 24  # lines looked at, bytes read at a time
 COMMENTS = ("#", "//", "%", ";")
 MANY = 3
+MOST_ODD = 0.01  # of the rows: with more of another number of columns, the layout is not understood
 
 
 class Layout(NamedTuple):
@@ -39,6 +43,23 @@ class Layout(NamedTuple):
     columns: tuple[int, ...]  # x, y, z, and the station if a heading names it
     n_columns: int
     decimal: str = "."  # a comma where semicolons divide
+
+
+class Odd:
+    """Rows with another number of columns than the first point has."""
+
+    def __init__(self, has_counts: bool) -> None:
+        self.has_counts = has_counts  # one whole number in a line says how many points follow
+        self.count, self.example = 0, ""
+
+    def skip(self, row: Any) -> str:
+        """Count a row, unless it is meant to be no point."""
+        text = row.text.strip()
+        is_count = self.has_counts and text.isdecimal()
+        if not is_count and not text.startswith(COMMENTS):
+            self.count += 1
+            self.example = self.example or text[:60]
+        return "skip"
 
 
 class TextCloud(InOrder):
@@ -58,14 +79,36 @@ class TextCloud(InOrder):
 
     def chunks(self, *, with_stations: bool = False) -> Iterator["Floats"]:
         """Points (n, 3), or (n, 4) with stations, a chunk at a time."""
-        n = MANY + with_stations
+        n, rows, odd = MANY + with_stations, 0, Odd(self.path.suffix.lower() == ".pts")
         with refusing(self.path, ValueError), self.path.open("rb") as file:
             for _ in range(self.layout.skipped):
                 file.readline()
             while block := file.read(BLOCK):
-                yield self.parsed(block + file.readline(), n)
+                before = odd.count
+                points = self.parsed(block + file.readline(), n, odd)
+                # Who reads them counts the points that lack a coordinate.
+                points = np.vstack([points, np.full((odd.count - before, n), np.nan)])
+                rows += len(points)
+                yield points[np.isfinite(points).all(axis=1)] if with_stations else points
+        self.check_rows(odd, rows)
 
-    def parsed(self, block: bytes, n: int) -> "Floats":
+    def check_rows(self, odd: "Odd", rows: int) -> None:
+        """Refuse a file whose rows are not alike.
+
+        Raises
+        ------
+        ParameterError
+            If too many rows have another number of columns than the first point.
+        """
+        if odd.count > MOST_ODD * rows:
+            msg = (
+                f"{self.name} has {odd.count:,} of {rows:,} rows with another number of columns "
+                f"than the first point, such as {odd.example!r}, expected {self.layout.n_columns} "
+                f"columns in all but {MOST_ODD:.0%} of the rows"
+            )
+            raise ParameterError(msg)
+
+    def parsed(self, block: bytes, n: int, odd: "Odd") -> "Floats":
         """Points of some whole lines, ``n`` columns of them.
 
         Raises
@@ -81,7 +124,7 @@ class TextCloud(InOrder):
             block = re.sub(rb"[ \t]+", b" ", re.sub(rb"(?m)^[ \t]+|[ \t\r]+$", b"", block))
         names = [str(k) for k in range(self.layout.n_columns)]
         wanted = [names[k] for k in self.layout.columns[:n]]
-        parse = csv.ParseOptions(delimiter=delimiter, invalid_row_handler=lambda _: "skip")
+        parse = csv.ParseOptions(delimiter=delimiter, invalid_row_handler=odd.skip)
         convert = csv.ConvertOptions(
             include_columns=wanted,
             column_types={name: pa.float64() for name in wanted},
@@ -97,8 +140,7 @@ class TextCloud(InOrder):
             raise ParameterError(msg) from error
         columns: list[Any] = [table.column(name).to_numpy() for name in wanted]
         points: Floats = np.column_stack(columns)
-        # Without stations, who reads them counts the points that lack a coordinate.
-        return points if n == MANY else points[np.isfinite(points).all(axis=1)]
+        return points
 
 
 def wanted_text(layout: Layout) -> str:
