@@ -5,7 +5,8 @@ harmonic k    amplitude of cos kθ and sin kθ in the residuals of a band; 2 is 
 scatter       how much a harmonic differs from band to band
 
 A circle has none of the harmonics from 2 on. One that is there in all bands alike is the section's
-shape; one that is there in a single band is a dent.
+shape; one that is there in a single band is a dent. Over a part of the circle harmonics cannot be
+told, for there they are made of each other: an oval looks like a circle that is elsewhere.
 """
 
 from typing import TYPE_CHECKING, NamedTuple
@@ -19,9 +20,9 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.types import Floats
 
-__all__ = ["Bands", "bands_of", "shape_of"]
+__all__ = ["SEEN", "Bands", "bands_of", "lure_of_an_oval", "shape_of"]
 
-BAND = 5.0  # metres
+BAND, LEAST_BANDS = 5.0, 6  # metres, number: low towers have lower bands
 ORDERS = np.arange(2, 9)
 SEEN = 300.0  # degrees of a band that must be seen for its harmonics to be told
 CERTAIN = 3.5  # standard deviations: a harmonic that counts,
@@ -41,7 +42,8 @@ class Bands(NamedTuple):
 
 def bands_of(cells: "Cells", residual: "Floats", weight: "Floats", unit: float) -> Bands:
     """Harmonics of the residuals, band by band; NaN where too little is seen."""
-    rise = max(1, round(BAND * unit / cells.grid.level))
+    rise = min(round(BAND * unit / cells.grid.level), cells.grid.n_levels // LEAST_BANDS)
+    rise = max(1, rise)
     band = cells.level // rise
     rows, numbers, noise = [], [], []
     for b in np.unique(band):
@@ -100,3 +102,27 @@ def shape_of(
         azimuth = float(azimuth_of(np.cos(turn), np.sin(turn)) % 180.0)
         name = name if lobes else "oval"
     return Shape(name, 0, azimuth, found, problem), bands.band[dented]
+
+
+def lure_of_an_oval(azimuths: "Floats") -> "Floats":
+    """How far an oval draws the centre of a circle that is fitted to a part of it.
+
+    On an arc cos 2θ and sin 2θ are not orthogonal to 1, cos θ, sin θ: least squares takes a part of
+    an oval for a motion of the centre. All round, that part is nothing.
+
+    Parameters
+    ----------
+    azimuths : ndarray, shape (n,)
+        Where the shell is seen, in radians, evenly.
+
+    Returns
+    -------
+    ndarray, shape (2,)
+        Standard deviation of x and of y for an oval of amplitude 1 in any direction: half the
+        squares of what cos 2θ and sin 2θ do to it.
+    """
+    design = np.column_stack([np.ones(azimuths.size), np.cos(azimuths), np.sin(azimuths)])
+    oval = np.column_stack([np.cos(2.0 * azimuths), np.sin(2.0 * azimuths)])
+    moved = np.linalg.lstsq(design, oval, rcond=None)[0][1:]
+    lure: Floats = np.sqrt((moved**2).sum(axis=1) / 2.0)
+    return lure

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.errors import ParameterError
+from midrib.towers import gate
 from midrib.towers.records import LEVELS
 from midrib.towers.summary import azimuth_of
 
@@ -26,6 +27,7 @@ UNCERTAIN = 0.005  # metres: no level without a flag should be off by more
 NORMAL, CERTAIN = 1.96, 3.72  # standard deviations: 95 % of one coordinate, 99.9 % of a distance
 ROUGH, LEAST_ROUGH = 4.0, 5e-4  # times the usual residual; metres
 FLOOR = 3e-5  # metres: what thinning to cells leaves of clutter, whatever the noise
+OVAL = 0.0075  # metres: amplitude that a section may have where its shape cannot be told
 NO_DATA = "no data"
 
 
@@ -45,6 +47,7 @@ class Seen(NamedTuple):
     near: "Floats"  # degrees, levels near by together
     n: "Floats"  # points
     residual: "Floats"
+    lure: "Floats"  # (n, 2): see gate.lure_of_an_oval, of what is seen near by
 
 
 def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None) -> Any:
@@ -72,7 +75,10 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
         raise ParameterError(msg)
     levels = np.zeros(z.size, dtype=LEVELS)
     levels["z"] = z
+    untold = is_untold(shell, seen)
     xy, sigma, why = joint_centres(shell, s) if centres is None else at_heights(centres, s)
+    # Planes through the axis have both walls of an oval alike; only a circle is drawn aside.
+    drawn = OVAL * unit * seen.lure * (untold & (centres is None))[:, None]
     there = frame.outwards(np.column_stack([xy, s]))
     # The level is horizontal, the frame nearly so: a centre moves down its own slope to z.
     slope = np.gradient(world[:, :2], world[:, 2], axis=0)
@@ -86,11 +92,13 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     levels["ovality"] = 2.0 * oval / levels["radius"] if is_told else np.nan
     floor = (FLOOR * unit) ** 2
     outer = registration_of(shell, options) ** 2 + (1e-3 * options.levelling * (z - z[0])) ** 2
-    levels["sigma_inner"] = np.sqrt((sigma**2).sum(axis=1) / 2.0 + floor)
-    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + floor + outer)
+    levels["sigma_inner"] = np.sqrt((sigma**2 + drawn**2).sum(axis=1) / 2.0 + floor)
+    levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + drawn.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     uncertain = is_uncertain(levels, sigma, unit)
-    flags = flags_of(shell, s, seen, levels, why, uncertain, told=options.registration > 0.0)
+    flags = flags_of(
+        shell, s, seen, levels, why, uncertain, untold, told=options.registration > 0.0
+    )
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
     for name in ("x", "y", "radius", "sigma", "sigma_x", "sigma_y", "sigma_inner", "ovality"):
@@ -138,16 +146,28 @@ def seen_at(shell: "Shell", s: "Floats", step: float, unit: float) -> Seen:
     used = fit.weight > 0.0
     width = 360.0 / cells.grid.n_sectors
     own, near, n, residual = (np.zeros(s.size) for _ in range(4))
+    lure = np.zeros((s.size, 2))
     half = max(step, cells.grid.level) / 2.0 + 1e-9
     for i, at in enumerate(s):
         off = np.abs(cells.s - at)
         here = used & (off <= half)
         own[i] = np.unique(cells.sector[here]).size * width
         around = used & (off <= NEAR * unit)
-        near[i] = np.unique(cells.sector[around]).size * width
+        sectors = np.unique(cells.sector[around])
+        near[i] = sectors.size * width
+        lure[i] = gate.lure_of_an_oval(np.radians(sectors * width))
         n[i] = cells.n[here].sum()
         residual[i] = np.sqrt(np.mean(fit.residual[here] ** 2)) if here.any() else np.nan
-    return Seen(own, near, n, residual)
+    return Seen(own, near, n, residual, lure)
+
+
+def is_untold(shell: "Shell", seen: Seen) -> "Bools":
+    """Whether the gate could not look at the shape of the sections near each level."""
+    if len(shell.cells.reference.faces):
+        return np.zeros(seen.near.size, dtype=np.bool_)
+    nowhere = shell.shape.name == "unknown" and not shell.shape.problem
+    untold: Bools = (seen.near < gate.SEEN) | nowhere
+    return untold
 
 
 def flags_of(
@@ -157,6 +177,7 @@ def flags_of(
     levels: Any,
     why: Any,
     uncertain: "Bools",
+    untold: "Bools",
     *,
     told: bool,
 ) -> "np.ndarray[Any, np.dtype[np.str_]]":
@@ -190,6 +211,10 @@ def flags_of(
     answered = flags == ""
     mark(answered & (shell.shape.problem != ""), shell.shape.problem)
     mark(answered & uncertain, [f"uncertain by {h:.1f} mm" for h in half])
+    mark(
+        answered & untold & (shell.shape.problem == ""),
+        [f"shape not verified: {arc:.0f}° of the shell seen" for arc in seen.near],
+    )
     mark(answered & is_round & (seen.near < SEEN), "radius from taper prior")
     mark(answered & apart, "stations not put together")
     mark(answered & in_dent, "dented, or partly hidden")

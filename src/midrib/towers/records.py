@@ -20,7 +20,7 @@ __all__ = ["LEVELS", "Shape", "TowerAxis"]
 
 LEVELS = np.dtype(
     [(name, np.float64) for name in ("z", "x", "y", "radius", "sigma", "deviation", "azimuth")]
-    + [("coverage", np.float64), ("n", np.int64), ("flag", "U160")]
+    + [("coverage", np.float64), ("n", np.int64), ("flag", "U240")]
     + [(name, np.float64) for name in ("ovality", "residual", "sigma_x", "sigma_y", "sigma_inner")]
 )
 
