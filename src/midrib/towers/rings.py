@@ -59,10 +59,10 @@ def rings_of(cells: "Cells", design: "Floats", used: "Bools", has_ring: "Bools")
         normal, right = np.zeros((n, 3, 3)), np.zeros((n, 3))
         np.add.at(normal, level, weight[:, None, None] * design[:, :, None] * design[:, None, :])
         np.add.at(right, level, (weight * d)[:, None] * design)
-        rings = np.linalg.solve(normal, right[:, :, None])[:, :, 0]
+        rings = np.linalg.solve(normal, right[:, :, None])[:, :, 0].astype(np.float64)
         off: Floats = np.abs(d - (design * rings[level]).sum(axis=1))
         bound = CLIPPED * max(1.4826 * float(np.median(off)), 1e-9 * float(np.ptp(d)), 1e-300)
-        weight = (bound / np.maximum(off, bound)).astype(np.float64)
+        weight = bound / np.maximum(off, bound)
     return rings
 
 
