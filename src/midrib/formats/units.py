@@ -107,8 +107,8 @@ def vertical_unit_of(crs: str | None) -> Unit | None:
 
     Examples
     --------
-    >>> vertical_unit_of('{"type": "VerticalCRS", "coordinate_system": {"axis": [\
-    ...     {"direction": "up", "unit": "metre"}]}}')
+    >>> axis = '{"direction": "up", "unit": "metre"}'
+    >>> vertical_unit_of(f'{{"type": "VerticalCRS", "coordinate_system": {{"axis": [{axis}]}}}}')
     Unit(name='m', metres=1.0)
     """
     parts: list[dict[str, Any]] = [] if crs is None else [json.loads(crs)]
