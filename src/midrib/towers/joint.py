@@ -19,7 +19,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.towers.blocks import factor_of, product
-from midrib.towers.rings import beyond_rings
 from midrib.towers.scatter import long_wave_variance
 from midrib.towers.smoothing import best_stiffness
 from midrib.towers.splines import Basis, basis_on
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit", "fit_cells", "normals_of"]
 
-KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 2.5, 20.0  # metres
+KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
 # Metres: less than that is never clutter, but bends that a clean scan shows and splines miss.
 LEAST_SPREAD = 3e-4
 TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
@@ -39,7 +38,6 @@ CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left 
 LEAST_ERROR = 1e-6  # metres: of a cell, where there is no noise at all
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
 PLIANT = (3e1, 1e5)
-LOOSE = (3e1, 1e2)  # both of them, where rings tell x, y and r apart at each level
 
 
 class Model(NamedTuple):
@@ -182,30 +180,22 @@ def fit_cells(
     _, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
-    pliancy = (PLIANT[0] * unit**3, PLIANT[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
-    beyond = None if len(cells.reference.faces) else beyond_rings(cells, prior, unit)
-    if beyond is not None:
-        # The rings alone weigh: by a fit's own residuals a zone that it misses would be thrown out,
-        # and the fit, free of it, would miss more of it the next time.
-        weight = prior * tukey(beyond, prior > 0.0, unit)
-        stiffness = pliancy = (LOOSE[0] * unit**3, LOOSE[1] * unit**3)
     for round_ in range(ROUNDS):
         normal, right = product(design, weight, design), design.T @ (weight * known)
         inverse = factor_of(normal + variance * model.penalty(*stiffness))
         bends = inverse.solve(right)
         residual = known - design @ bends
-        off = residual if beyond is None else beyond
         if round_ in CHOOSING and not rough:
             # What a pliant curve leaves is error; a stiff one leaves the tower's own bends too.
-            pliant = factor_of(normal + model.penalty(*pliancy))
+            pliant = factor_of(normal + model.penalty(*(unit**3 * k for k in PLIANT)))
             left = known - design @ pliant.solve(right)
             variance = long_wave_variance(cells, design, normal, pliant, weight, left, unit)
-            variance *= lost_to_weights(off, weight, unit) ** 2
+            variance *= lost_to_weights(residual, weight, unit) ** 2
             variance = max(variance, (LEAST_ERROR * unit) ** 2)
             stiffness = best_stiffness(normal / variance, right / variance, model, unit)
-        before, weight = weight, prior * tukey(off, prior > 0.0, unit)
+        before, weight = weight, prior * tukey(residual, prior > 0.0, unit)
         if round_ > max(CHOOSING) and np.abs(weight - before).max() < 0.01:
             break
     covariance = np.zeros((0, 0))
