@@ -1,5 +1,6 @@
 """Checks find what is wrong, where it is, and nothing else."""
 
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -192,7 +193,7 @@ def test_known_heights_confirm_every_top_of_opole() -> None:
     findings = check_slopes(slopes, problems)
     told = [(f.id, f.check, f.reason, f.where) for f in findings]
     assert told == sorted(told, key=lambda one: [*CHECKS].index(one[1]))
-    assert {check for _, check, *_ in told} == {"unmatched", "beyond"}
+    assert Counter(check for _, check, *_ in told) == {"unmatched": 1, "beyond": 11}
     drawn = draw_slopes(slopes, problems=problems).problems
     assert sorted(told, key=str) == sorted(
         ((p.id, p.kind, p.reason, p.where) for p in drawn), key=str
@@ -217,9 +218,12 @@ def test_swapped_slopes_of_opole_are_found() -> None:
 @REAL
 def test_slopes_of_gooi_with_the_crest_on_a_short_side_are_doubtful() -> None:
     found = check_slopes(*read_slopes(FOLDER / "nl_bgt_gooi.gpkg"))
-    checks = [finding.check for finding in found]
-    assert {*checks} <= {"refused", "orientation", "unmatched", "beyond"}
-    assert (checks.count("refused"), checks.count("orientation")) == (50, 7)
+    assert Counter(finding.check for finding in found) == {
+        "refused": 50,
+        "orientation": 7,
+        "unmatched": 18,
+        "beyond": 7,
+    }
     assert all(finding.where is not None for finding in found)
 
 
