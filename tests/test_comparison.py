@@ -1,5 +1,6 @@
 """Lines of several methods side by side."""
 
+import colorsys
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +13,8 @@ import midrib
 from midrib.comparison import compare
 from midrib.curves.variants import variant_of, variants
 from midrib.errors import GeometryTypeError, ParameterError, RepairedAreaWarning
-from midrib.figures.comparison import COLOURS, draw_comparison
-from midrib.figures.comparison_page import rows_of
+from midrib.figures.comparison import colours_of, draw_comparison
+from midrib.figures.comparison_page import rows_of, write_comparison
 
 L_SHAPE = Polygon([(0, 0), (10, 0), (10, 3), (3, 3), (3, 12), (0, 12)])
 NOTCHED = Polygon([
@@ -239,7 +240,8 @@ def test_lines_on_each_other_are_all_seen() -> None:
     from matplotlib.colors import to_rgb
 
     names = ["minimal-radii", "medial-axis", "chordal-axis"]
-    figure = draw_comparison(compare(box(0, 0, 9, 2), names))
+    found = compare(box(0, 0, 9, 2), names)
+    figure = draw_comparison(found)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()  # type: ignore[no-untyped-call]
     panel = figure.axes[-1].get_window_extent()
@@ -248,6 +250,30 @@ def test_lines_on_each_other_are_all_seen() -> None:
     inside = picture[int(panel.y0) : int(panel.y1), int(panel.x0) : int(panel.x1)]
     seen = [
         int((np.abs(inside - to_rgb(colour)).max(axis=2) < 0.05).sum())
-        for colour in COLOURS[: len(names)]
+        for colour in colours_of(found.rows)
     ]
     assert min(seen) > 0.5 * max(seen) > 20
+
+
+def test_methods_have_the_colours_of_the_paper_and_no_two_the_same() -> None:
+    """The curve is black, medial axes green, straight skeletons brown, mean curves purple."""
+    pytest.importorskip("matplotlib")
+    rows = compare(box(0, 0, 9, 2)).rows
+    colours = dict(zip([row.method for row in rows], colours_of(rows), strict=True))
+    assert len(set(colours.values())) == len(rows)
+    hues = {
+        name: colorsys.rgb_to_hsv(*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)))
+        for name, colour in colours.items()
+    }
+    assert hues["minimal-radii"][2] < 0.1
+    assert 90 < 360 * hues["medial-axis"][0] < 160
+    assert 20 < 360 * hues["straight-skeleton"][0] < 45
+    assert hues["straight-skeleton"][2] < 0.8
+    assert 270 < 360 * hues["mean-curve"][0] < 300
+
+
+def test_a_page_says_that_centredness_does_not_see_islands(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    for area, is_told in ((box(0, 0, 9, 2), False), (box(0, 0, 9, 3) - box(4, 1, 5, 2), True)):
+        write_comparison(compare(area, ["minimal-radii"]), tmp_path / "page.html", "an area")
+        assert ("does not see islands" in (tmp_path / "page.html").read_text()) == is_told

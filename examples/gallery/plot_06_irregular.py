@@ -4,7 +4,9 @@ Figure 6: an irregular object with sharp ends
 
 Where both curves end in one point, the paper's first rule for ends is the best one: the line runs
 from tip to tip. A dent in the auxiliary curve moves it by less than the dent is deep, but for one
-in the first segment, next to the tip.
+in the first segment, next to the tip: there one minimal radius leans the other way and crosses its
+neighbours, so that the line turns back for a moment. The construction has no rule against that;
+``centring="centred"`` goes round by the trunk of the medial axis, which does not turn back.
 """
 
 import matplotlib.pyplot as plt

@@ -2,10 +2,12 @@
 Figure 9: four methods compared
 ===============================
 
-In the upper, regular part all are the same, away from the ends. In the first bend, the middle part,
-the medial axis and the straight skeleton differ, and the curve of minimal radii lies between them;
-the mean curve is too close to the auxiliary curve. Both skeletons fork at the ends, and the curve
-of minimal radii runs along one of the branches into the corner where the main curve ends.
+In the upper, regular part the medial axis, the straight skeleton and the curve of minimal radii are
+the same line, away from the ends; the mean curve comes to it from the corner only slowly, as its
+pairs halve both curves in proportion. In the first bend, the middle part, the two skeletons differ,
+and the curve of minimal radii lies between them; the mean curve is too close to the auxiliary
+curve. Both skeletons fork at the ends, and the curve of minimal radii runs along one of the
+branches into the corner where the main curve ends.
 
 **Where it does not lie between them:** in the second bend, where the main curve is inside. A single
 point of the main curve has the whole bend of the auxiliary curve before it, the radii turn about

@@ -46,7 +46,8 @@ class Compared:
         In coordinate units, in metres if geographic, as all lengths here.
     centredness : float
         95th percentile, away from the ends, of how far off the middle of the two sides it is: 0
-        in the middle, 1 on a side; see ``midrib.measures.centredness``.
+        in the middle, 1 on a side. Islands are on neither side: beside one it says nothing of the
+        middle of the channel. See ``midrib.measures.centredness``.
     turning : float
         Degrees by which it turns on a stretch as long as the area is wide.
     off, off_most : float

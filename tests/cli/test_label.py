@@ -44,6 +44,12 @@ def test_points_are_vertices_of_the_line(midrib: Runner, tmp_path: Path) -> None
     assert midrib("points", source, tmp_path / "b.csv", "--tolerance", "10cm").code == 0
 
 
+def test_an_empty_area_has_no_points(midrib: Runner, tmp_path: Path) -> None:
+    source, out = write(tmp_path / "in.gpkg", [LAKE, "POLYGON EMPTY"]), tmp_path / "out.gpkg"
+    assert midrib("points", source, out).code == 0
+    assert set(read_all(out)[1]["number"].to_pylist()) == {0}
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

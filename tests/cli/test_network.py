@@ -53,6 +53,24 @@ def test_areas_are_dissolved_on_request(midrib: Runner, tmp_path: Path) -> None:
     assert "more than one way" in refused["reason"].to_pylist()[0]
 
 
+@pytest.mark.parametrize("ending", ["gpkg", "geojson", "parquet"])
+@pytest.mark.parametrize(("areas", "code"), [([], 0), ([None], 0), ([BOW_TIE], 1)])
+@pytest.mark.parametrize("options", [[], ["--dissolve"]])
+def test_a_network_without_lines_is_written(
+    areas: list[str | None],
+    code: int,
+    options: list[str],
+    ending: str,
+    midrib: Runner,
+    tmp_path: Path,
+) -> None:
+    source, out = write(tmp_path / "in.gpkg", areas, kind="Polygon"), tmp_path / f"out.{ending}"
+    outcome = midrib("network", source, out, *options)
+    assert outcome.code == code
+    assert "0 junctions, 0 dead ends" in outcome.err
+    assert out.exists()
+
+
 def test_options_reach_the_network(midrib: Runner, tmp_path: Path) -> None:
     staggered = shapely.union_all(
         [shapely.box(-20, -1, 20, 1), shapely.box(-2, -20, 0, 0), shapely.box(0, 0, 2, 4)]

@@ -283,3 +283,8 @@ def test_rows_count_repeated_vertices() -> None:
     found = control_points(line)
     assert found.rows.tolist() == [0, 1, 3]
     assert np.array_equal(np.array(line.coords)[found.rows], np.array(found.line.coords))
+
+
+def test_a_height_that_is_not_known_does_not_matter() -> None:
+    area = Polygon([(0, 0, np.nan), (30, 0, 2), (30, 4, 3), (0, 4, np.nan)])
+    assert label_line(area).lines.equals(label_line(shapely.force_2d(area)).lines)

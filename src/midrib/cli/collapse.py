@@ -65,7 +65,7 @@ def collapse(
     if to_folder:
         check_folder(source, out, figure, has_m=has_m)
     else:
-        places.check(overwrite=overwrite, needs_m=has_m)
+        places.check(overwrite=overwrite, needs_m="--width m" if has_m else "")
     files = files_of(source)
     check_alike(files)
     layer = choose_layer(files[0], layer)

@@ -82,6 +82,9 @@ def chosen_area(features: "Source", feature: str | None) -> Any:
             found += [g for k, g in enumerate(batch.geometries, batch.first) if f"{k}" == feature]
             if not feature:
                 found += list(batch.geometries[:2])
+    if not count:
+        msg = "IN has no features, expected one at least"
+        raise ParameterError(msg)
     if len(found) != 1:
         told = f"--feature {feature!r} fits {len(found)}" if feature else f"IN has {count}"
         msg = f"{told} features, expected one: --feature 0 to {count - 1}, or FIELD=VALUE"

@@ -57,6 +57,7 @@ def point_layer(results: "Results", batch: "Batch", method: str, options: dict[s
     refused = dict(batch.unreadable)
     status = statuses(batch.geometries, problems, refused)
     parts, row = shapely.get_parts(lines, return_index=True)
+    parts, row = parts[~shapely.is_empty(parts)], row[~shapely.is_empty(parts)]
     whole = shapely.is_valid(batch.geometries)
     found = []
     for line, i in zip(parts, row, strict=True):

@@ -45,13 +45,18 @@ class Nodes:
     def layer(self) -> Second:
         """Return the layer of nodes."""
         table = pa.table(
-            {"node": pa.array(range(len(self.ways))), "ways": pa.array(self.ways, pa.int64())}
+            {"node": whole_numbers(len(self.ways)), "ways": pa.array(self.ways, pa.int64())}
         )
         places = np.array(list(self.number), dtype=np.float64).reshape(-1, 2)
         n_junctions = sum(ways > 2 for ways in self.ways)
         n_ends = sum(ways == 1 for ways in self.ways)
         summary = f"{n_junctions} junctions, {n_ends} dead ends"
         return Second(table, shapely.points(places), "Point", summary)
+
+
+def whole_numbers(n: int) -> pa.Array:
+    """Numbers from 0 to n - 1, of a type that files know even if there is none."""
+    return pa.array(range(n), pa.int64())
 
 
 def check_network(method: str, options: dict[str, Any]) -> None:
@@ -72,7 +77,7 @@ def dissolved(batches: "Iterable[Batch]") -> "Batch":
     rows = {int(row): k for k, row in enumerate(others, pieces.size)}
     unreadable = {rows[row]: why for row, why in batch.unreadable.items() if row in rows}
     return batch._replace(
-        attributes=pa.table({"piece": pa.array(range(pieces.size + others.size))}),
+        attributes=pa.table({"piece": whole_numbers(pieces.size + others.size)}),
         geometries=np.concatenate([pieces, areas[others]]),
         unreadable=unreadable,
     )

@@ -102,20 +102,20 @@ class Places(NamedTuple):
             return {"": path}
         return {kind: path.with_name(f"{path.stem}{kind}{path.suffix}") for kind in KINDS}
 
-    def check(self, *, overwrite: bool, needs_m: bool = False) -> None:
+    def check(self, *, overwrite: bool, needs_m: str = "") -> None:
         """Refuse places that cannot be written to, before any work is done.
 
         Raises
         ------
         ParameterError
-            If OUT has an unknown ending or no place for M values that are needed, is IN, or exists
-            and is not to be overwritten; or if there is a file in the place for refused areas or
-            joints that an earlier run has not written.
+            If OUT has an unknown ending or no place for M values that ``needs_m``, an option, asks
+            for, is IN, or exists and is not to be overwritten; or if there is a file in the place
+            for refused areas or joints that an earlier run has not written.
         """
-        if not format_of(self.out).has_m and needs_m:
+        if needs_m and not format_of(self.out).has_m:
             msg = (
                 f"OUT {str(self.out)!r} has no place for M values, expected one of "
-                f"{', '.join(endings_with_m())} with --width m"
+                f"{', '.join(endings_with_m())} with {needs_m}"
             )
             raise ParameterError(msg)
         for path in self.all:

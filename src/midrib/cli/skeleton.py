@@ -30,7 +30,7 @@ def skeleton(
 
     is_m = radius is cli.WidthPlace.m
     places = Places(source, out, None)
-    places.check(overwrite=overwrite, needs_m=is_m)
+    places.check(overwrite=overwrite, needs_m="--radius m" if is_m else "")
     layer = choose_layer(source, layer)
     report = Report(quiet=quiet)
     with open_layer(source, layer) as features:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
+import shapely
 from shapely import LineString
 
 from midrib.curves.each import find_in_each
@@ -111,6 +112,7 @@ def label_line(
     trunk_of, graph_of = finder_of("minimal-radii"), graph_finder("medial-axis")
 
     def find(area: "Polygon", scale: "Scale") -> Label:
+        area = shapely.force_2d(area)  # heights say nothing of the room for a name
         graph = pruned(graph_of(area, scale)[0], scale, 0.0, NO_CORNER)
         spines = [trunk_line(trunk_of, area, scale), *spines_of(graph, area, scale)]
         return best_label(area, spines, scale, wanted)

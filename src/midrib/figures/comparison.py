@@ -1,5 +1,6 @@
 """Comparisons drawn: a panel for each method, and one with all lines."""
 
+from itertools import cycle
 from pathlib import Path
 from textwrap import fill
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,10 +27,16 @@ if TYPE_CHECKING:
     from midrib.figures.curves import Sketch
     from midrib.types import Floats
 
-__all__ = ["COLOURS", "draw_comparison"]
+__all__ = ["colours_of", "draw_comparison"]
 
 THIN, THICK, DASH = 0.15, 0.55, 2.4  # millimetres: lines where all are drawn, and their dashes
-COLOURS = ("#111111", "#d1495b", "#2e86ab", "#1e9e58", "#e08a00", "#8e44ad", "#00a3b4", "#7a5c3e")
+COLOURS = {  # as in Fig. 9 of the paper
+    "minimal-radii": "#111111",
+    "medial-axis": "#1e9e58",
+    "straight-skeleton": "#b8742a",
+    "mean-curve": "#8e44ad",
+}
+MORE_COLOURS = ("#d1495b", "#2e86ab", "#e6b800", "#00b8c4", "#7a7a7a", "#f07ab0")
 EDGE, ENTRY, NORTH = 2.0, 4.2, 4.0  # millimetres: below the legend, its rows, the arrow's size
 LETTER, SAMPLE = 1.45, 7.5  # millimetres: an entry of the legend, for a letter and beside them
 
@@ -212,8 +219,9 @@ def keys_of(rows: "list[Compared]") -> "list[Line2D]":
 
 
 def colours_of(rows: "list[Compared]") -> list[str]:
-    """Colour of each method's line where all are drawn."""
-    return [COLOURS[k % len(COLOURS)] for k in range(len(rows))]
+    """Colour of each method's line where all are drawn: its own, or one that no method has."""
+    more = cycle(MORE_COLOURS)
+    return [COLOURS.get(row.method) or next(more) for row in rows]
 
 
 def title(axes: "Axes", name: str, reason: str = "") -> None:

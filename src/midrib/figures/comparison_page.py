@@ -23,6 +23,9 @@ HEADINGS = (
     "method", "vertices", "length", "centredness p95", "turning (° per width)", "off p95 (widths)",
     "off most (widths)", "CPU (ms)", "note",
 )  # fmt: skip
+ISLANDS = (
+    "Centredness does not see islands: beside one it says nothing of the middle of the channel."
+)
 TEMPLATE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>
 body {{ font: 15px/1.5 system-ui, sans-serif; max-width: 64em; margin: 2em auto; padding: 0 1em; }}
@@ -36,7 +39,7 @@ th {{ cursor: pointer; }} th:hover {{ text-decoration: underline; }}
 {figure}
 <p>A click on a heading sorts. <em>Centredness</em>: 0 in the middle of the two sides, 1 on one of
 them, away from the ends. <em>Off</em>: distance from the line of the first method, in mean widths
-of the area. Lengths in {unit}. {notes}</p>
+of the area. Lengths in {unit}.{notes}</p>
 <table><thead><tr>{head}</tr></thead><tbody>
 {body}
 </tbody></table><script>
@@ -120,6 +123,12 @@ def write_comparison(
         draw_comparison(comparison, path)
 
 
+def notes_of(comparison: "Comparison") -> list[str]:
+    """Sentences about the area that a reader of the table should know."""
+    notes = [f"The area: {'; '.join(comparison.notes)}."] if comparison.notes else []
+    return [*notes, ISLANDS] if comparison.area.interiors else notes
+
+
 def page_of(comparison: "Comparison", title: str, unit: str | None) -> str:
     """Page with the figure and the table."""
     drawn = io.StringIO()
@@ -138,7 +147,7 @@ def page_of(comparison: "Comparison", title: str, unit: str | None) -> str:
         title=escape(title),
         figure=figure[figure.index("<svg") :],
         unit=escape(unit or "units of the coordinates"),
-        notes=escape(f"The area: {'; '.join(comparison.notes)}." if comparison.notes else ""),
+        notes="".join(f" {escape(note)}" for note in notes_of(comparison)),
         head="".join(f"<th>{escape(heading)}</th>" for heading in HEADINGS),
         body=body,
     )
