@@ -110,10 +110,11 @@ def arm_of(net: Net, crossing: Crossing, branch: int, end: int) -> Arm:
     radius is as good as the place itself.
     """
     said, kept, disc = arm_from(net.points, net.radius, net.branches[branch], end, crossing.members)
-    at, radius, weight = float(said[0]), float(said[7]), float(said[8])
+    at, radius, weight = float(said[0]), float(said[8]), float(said[9])
+    bend = said[5:7] / said[7] ** 2
     return Arm(
-        branch, end, at, said[1:3], int(kept[0]), said[3:5], said[5:7], radius, weight,
-        (said[9:11], int(kept[1])), (disc[:, :2], disc[:, 2]),
+        branch, end, at, said[1:3], int(kept[0]), said[3:5], bend, radius, weight,
+        (said[10:12], int(kept[1])), (disc[:, :2], disc[:, 2]),
     )  # fmt: skip
 
 

@@ -159,8 +159,8 @@ def arm_from(points: Floats, radius: Floats, rows: Ints, end: int, members: Ints
 
     Returns
     -------
-    said : (11,) arc length of the cut; cut x, y; direction x, y; bend x, y; radius; weight; the
-        next best cut x, y
+    said : (12,) arc length of the cut; cut x, y; direction x, y; second difference x, y over places
+        so far apart; that length; radius; weight; the next best cut x, y
     kept : (2,) points that are kept beyond either cut
     disc : (m, 3) x, y, radius of discs before the cut and one radius on
     """
@@ -179,9 +179,9 @@ def arm_from(points: Floats, radius: Floats, rows: Ints, end: int, members: Ints
     half = (far - at) / 2.0
     dx = (3.0 * ax - 4.0 * bx + cx) / (2.0 * half)
     dy = (3.0 * ay - 4.0 * by + cy) / (2.0 * half)
-    ex, ey = (ax - 2.0 * bx + cx) / (half * half), (ay - 2.0 * by + cy) / (half * half)
+    ex, ey = ax - 2.0 * bx + cx, ay - 2.0 * by + cy
     length = max(np.hypot(dx, dy), np.finfo(np.float64).tiny)
     sx, sy, _ = disc_at(reach.outside, arc, points, radius, way)
-    said = np.array([at, ax, ay, dx / length, dy / length, ex, ey, size, weight, sx, sy])
+    said = np.array([at, ax, ay, dx / length, dy / length, ex, ey, half, size, weight, sx, sy])
     kept = np.array([np.count_nonzero(arc > at), np.count_nonzero(arc > reach.outside)])
     return said, kept, reach.disc
