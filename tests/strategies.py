@@ -21,6 +21,7 @@ __all__ = [
     "combs",
     "crowded",
     "divided",
+    "gapped",
     "polyominoes",
     "ribbons",
     "spirals",
@@ -243,6 +244,38 @@ def crowded(draw: st.DrawFn) -> Polygon:
         )
     area = affinity.rotate(area, draw(st.sampled_from([0.0, 30.0])), origin=(0, 0))
     assume(isinstance(area, Polygon) and area.is_valid)
+    return area
+
+
+@st.composite
+def gapped(draw: st.DrawFn) -> Polygon:
+    """Quarters of squares on paper, their holes moved and slits cut by 1e-12 to 1e-6."""
+    n = draw(st.integers(2, 5))
+    middles = [(i + 0.5, j + 0.5) for i in range(n) for j in range(n)]
+    kept = draw(st.lists(st.integers(0, 4 * len(middles) - 1), min_size=1, max_size=4 * n))
+    corners = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+    left_out = [
+        Polygon([middles[k // 4], *(corners[[k % 4, k % 4 - 3]] + middles[k // 4])]) for k in kept
+    ]
+    area = shapely.difference(box(0, 0, n, n), shapely.union_all(left_out))
+    gap = 10.0 ** draw(st.sampled_from([-12, -9, -8, -7, -6]))
+    for x, y, long, is_flat in draw(
+        st.lists(
+            st.tuples(st.integers(0, 8), st.integers(0, 8), st.integers(1, 4), st.booleans()),
+            max_size=3,
+        )
+    ):
+        slit = box(x, y, x + long, y + gap) if is_flat else box(x, y, x + gap, y + long)
+        area = shapely.difference(area, affinity.scale(slit, 0.5, 0.5, origin=(0, 0)))
+    area = max(shapely.get_parts(area), key=lambda part: part.area)
+    assume(isinstance(area, Polygon) and area.area > 0.0)
+    steps = st.tuples(st.integers(-9, 9), st.integers(-9, 9))
+    holes = [np.array(hole.coords) + gap / 4 * np.array(draw(steps)) for hole in area.interiors]
+    area = affinity.rotate(
+        Polygon(area.exterior, holes), draw(st.integers(0, 31)) * 11.25, origin=(0, 0)
+    )
+    assume(area.is_valid)
+    note(area.wkt)
     return area
 
 

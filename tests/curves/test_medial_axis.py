@@ -17,7 +17,7 @@ from midrib import Skeleton, skeleton
 from midrib.curves import axes
 from midrib.curves.turning import turned, turned_back
 from midrib.errors import InvariantError
-from midrib.kernels.medial import medial_axis
+from midrib.kernels.medial import Fault, medial_axis
 from midrib.layout import boundary_of
 from midrib.ragged import rings_of_area
 from tests.shapes import NAMED, VALID, rectangle, wavy_ribbon, wedge
@@ -169,7 +169,7 @@ def test_where_rings_touch_a_disc_meets_the_corner_that_it_is_in(angle: int) -> 
     for tenth in range(0, 30, 2):
         area = rotate(straight, angle + tenth / 10.0, origin=(0, 0))
         mesh = boundary_of(*rings_of_area(area)).mesh
-        assert medial_axis(mesh, 1.0, 1.0, 1e-3)[0], angle + tenth / 10.0
+        assert medial_axis(mesh, 1.0, 1.0, 1e-3, 0.0)[0], angle + tenth / 10.0
     checked(area)
 
 
@@ -198,7 +198,7 @@ def test_a_cut_of_a_gap_of_billionths_stays_inside(name: str) -> None:
     angle, text = NARROW[name]
     area = rotate(shapely.from_wkt(text), angle, origin=(0, 0))
     mesh = boundary_of(*rings_of_area(area)).mesh
-    assert medial_axis(mesh, 1.0, 1.0, 1e-3)[0]
+    assert medial_axis(mesh, 1.0, 1.0, 1e-3, 0.0)[0]
     checked(area)
 
 
@@ -387,7 +387,8 @@ def test_the_centred_line_is_the_trunk(area: Polygon) -> None:
 
 
 def test_an_axis_that_was_not_found_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
-    lost = (False, np.empty((0, 2)), np.empty(0), np.empty((0, 2), np.intp))
+    nothing = np.empty((0, 2)), np.empty(0), np.empty((0, 2), np.intp)
+    lost = (False, *nothing, Fault(np.inf, 1.5, 0.5))
     monkeypatch.setattr(axes, "medial_axis", lambda *_: lost)
     with pytest.raises(InvariantError, match="the medial axis was not found"):
         skeleton(box(0, 0, 3, 1))

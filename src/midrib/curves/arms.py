@@ -9,19 +9,12 @@ from typing import NamedTuple
 import numpy as np
 
 from midrib.curves.graphs import Branches, Graph
+from midrib.kernels.arms import arm_from
 from midrib.kernels.graph import branches_of
 from midrib.layout import Scale
-from midrib.types import Bools, Floats, Ints
+from midrib.types import Floats, Ints
 
 __all__ = ["Arm", "Crossing", "Net", "Stretch", "arms_of", "net_of", "passed"]
-
-LOOK = 2.5  # radii within which an arm is looked at for where it is narrow
-FARTHEST = 12.0  # radii of the crossing within which an arm comes to be steady, if ever
-SAMPLES = 129
-STEADY = 0.95  # an arm is steady that does not lose more of its radius within LOOK
-NARROW = 1.001  # times the least radius of an arm: 0.01 off already turns it by some 5 degrees
-ALONG = 2.0  # radii of an arm over which its direction is taken
-WEAK = 0.02  # of its radius is what an arm says that is in the discs all along
 
 
 class Stretch(NamedTuple):
@@ -107,26 +100,21 @@ def arms_of(net: Net, crossing: Crossing, ends: Ints) -> list[Arm]:
 
 
 def arm_of(net: Net, crossing: Crossing, branch: int, end: int) -> Arm:
-    """One arm."""
-    stretch = net.stretch(branch, end)
-    at, outside, reach = narrow_from(net, crossing, stretch)
-    _, (radius,) = stretch.at(np.array([at]))
-    far = min(at + ALONG * radius, stretch.length)
-    if far == at:  # the whole branch is in the discs
-        at, far, weight = 0.0, at, WEAK * radius
-    else:
-        weight = (far - at) / ALONG
-    (cut, middle, last), _ = stretch.at(np.array([at, (at + far) / 2.0, far]))
-    # Of the parabola through three points: inwards the sign of its first derivative turns.
-    half = (far - at) / 2.0
-    direction = (3.0 * cut - 4.0 * middle + last) / (2.0 * half)
-    bend = (cut - 2.0 * middle + last) / half**2
-    length = max(np.hypot(*direction), np.finfo(float).tiny)
-    (spare,), _ = stretch.at(np.array([outside]))
-    kept, rest = (int(np.count_nonzero(stretch.arc > place)) for place in (at, outside))
+    """One arm.
+
+    It is narrow where it is as wide as it gets within 2.5 radii from where it is steady; roads that
+    part at a sharp angle become so far from their junction. One that narrows all along, like a
+    river, is looked at within that of the crossing only.
+
+    Half of it at most: the other half is for what is at the other end. A vertex within half a
+    radius is as good as the place itself.
+    """
+    said, kept, disc = arm_from(net.points, net.radius, net.branches[branch], end, crossing.members)
+    at, radius, weight = float(said[0]), float(said[8]), float(said[9])
+    bend = said[5:7] / said[7] ** 2
     return Arm(
-        branch, end, at, cut, kept, direction / length, bend, float(radius), float(weight),
-        (spare, rest), reach,
+        branch, end, at, said[1:3], int(kept[0]), said[3:5], bend, radius, weight,
+        (said[10:12], int(kept[1])), (disc[:, :2], disc[:, 2]),
     )  # fmt: skip
 
 
@@ -137,50 +125,3 @@ def passed(net: Net, arm: Arm, hub: Floats) -> tuple[Floats, int]:
     at = max(arm.at, min(arm.at + behind + arm.radius / 2.0, stretch.length / 2.0))
     (cut,), _ = stretch.at(np.array([at]))
     return cut, int(np.count_nonzero(stretch.arc > at))
-
-
-def narrow_from(
-    net: Net, crossing: Crossing, stretch: Stretch
-) -> tuple[float, float, tuple[Floats, Floats]]:
-    """Where an arm is narrow, where it has left the crossing's discs, and where hubs may be.
-
-    It is narrow where it is as wide as it gets within ``LOOK`` radii from where it is steady; roads
-    that part at a sharp angle become so far from their junction. One that narrows all along, like
-    a river, is looked at within that of the crossing only.
-
-    Half of it at most: the other half is for what is at the other end. A vertex within half a
-    radius is as good as the place itself.
-    """
-    radii = net.radius[crossing.members]
-    look = LOOK * float(radii.max())
-    arc = np.linspace(0.0, min(stretch.length / 2.0, FARTHEST * float(radii.max())), SAMPLES)
-    arc = np.union1d(arc, stretch.arc[stretch.arc < arc[-1]])
-    end = int(np.searchsorted(arc, look, side="right"))  # of what is near the crossing
-    points, radius = stretch.at(arc)
-    away = points[:, None] - net.points[crossing.members][None]
-    is_out: Bools = np.all(np.hypot(away[..., 0], away[..., 1]) >= radii, axis=1)
-    if not is_out.any():
-        last = float(arc[end - 1])
-        return last, last, (points, radius)
-    first = int(np.argmax(is_out))
-    ahead = least_ahead(arc, radius)
-    is_steady = is_out & (ahead >= STEADY * radius) & (arc + LOOK * radius <= arc[-1])
-    if is_steady.any():
-        least = ahead[np.argmax(is_steady)]
-    else:
-        least = radius[first : max(end, first + 1)].min()
-    at = first + int(np.argmax(radius[first:] <= NARROW * least))
-    vertices = stretch.arc[(stretch.arc >= arc[at]) & (stretch.arc <= arc[at] + radius[at] / 2.0)]
-    vertices = vertices[vertices <= arc[-1]]
-    narrow = float(vertices[0] if vertices.size else arc[at])
-    is_near = arc <= narrow + radius[at]
-    return narrow, float(arc[first]), (points[is_near], radius[is_near])
-
-
-def least_ahead(arc: Floats, radius: Floats) -> Floats:
-    """Least radius from each place on over ``LOOK`` of its radii."""
-    first = np.arange(arc.size)
-    last = np.searchsorted(arc, arc + LOOK * radius, side="right")
-    pairs = np.column_stack([first, np.minimum(last, arc.size - 1)]).ravel()
-    least: Floats = np.minimum(np.minimum.reduceat(radius, pairs)[::2], radius)
-    return least

@@ -3,7 +3,7 @@
 Where many things happen at once, as on squared paper, rounding decides in which order. A kernel
 that finds out that its result is not sound is asked again, with the area turned by a radian more
 each time: the same result but for rounding, in other orders. Of 4,000 areas with holes no medial
-axis needs it; of 1,282 with gaps of 1e-16 to 1e-6 between the holes 18 do, and 14 are found so.
+axis needs it; of areas with gaps of 1e-16 to 1e-6 between the holes some do.
 """
 
 import numpy as np

@@ -40,7 +40,7 @@ __all__ = [
 
 BETWEEN_WALLS, BETWEEN_CORNERS, PARABOLA = 0, 1, 2
 ALMOST_FLAT = 1e-7  # normals that differ less say nothing about the direction of their bisector
-ROOT_STEPS = 100
+ROOT_STEPS = 240  # a fourth of them halve: that comes to the last bit, however flat the root is
 PROBES = 24  # for a disc that is off a wall which it touches before and after
 DEPTH = 2.0**-48  # of the extent: what reaches less far into a disc only touches it
 GAP = 2.0**-53  # of the extent: what rounding closes is taken to be as wide as this

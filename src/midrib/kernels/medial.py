@@ -31,10 +31,12 @@ from midrib.kernels.bisectors import (
     leaves,
 )
 from midrib.kernels.cuts import Cuts, cuts_of
+from midrib.kernels.discs import worst_disc
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.pieces import (
+    NODES,
     Pieces,
     drawn,
     join_at_cuts,
@@ -51,6 +53,15 @@ from midrib.types import Floats, Ints
 __all__ = ["medial_axis"]
 
 SAME = 2.0**-36  # of the extent: points that are not told apart
+MISS = 2.0**-31  # of the extent: how far a disc may be from just touching the boundary
+
+
+class Fault(NamedTuple):
+    """How far the worst disc is from just touching the boundary, and the place."""
+
+    miss: float
+    x: float
+    y: float
 
 
 class Branches(NamedTuple):
@@ -151,8 +162,8 @@ def roll(w: Walls, c: Cuts, q: Sites, a: Pieces, todo: Branches) -> bool:
 
 @njit(entry=True)
 def medial_axis(
-    mesh: Mesh, scale_x: float, scale_y: float, tolerance: float
-) -> tuple[bool, Floats, Floats, Ints]:
+    mesh: Mesh, scale_x: float, scale_y: float, tolerance: float, apart: float
+) -> tuple[bool, Floats, Floats, Ints, Fault]:
     """Medial axis of an area as a graph.
 
     Parameters
@@ -160,13 +171,15 @@ def medial_axis(
     mesh : the area
     scale_x, scale_y : lengths of one unit of x and of y
     tolerance : length, how far the chords of an arc may be from it
+    apart : share of the extent; vertices that follow each other no farther apart are one
 
     Returns
     -------
-    is_done : bool
+    is_done : whether it was found, and every radius is the distance to the boundary
     points : (n, 2)
     radius : (n,) lengths to the nearest point of the boundary
     edges : (m, 2) rows of points
+    fault : where a radius is most wrong, or the search was lost
 
     Notes
     -----
@@ -180,16 +193,24 @@ def medial_axis(
     Aichholzer, Aigner, Aurenhammer, Hackl, Jüttler and Rabl, Medial axis computation for planar
     free-form shapes, CAD 41, 2009 (discs that leave no way round).
     """
-    w = walls_of(mesh, scale_x, scale_y)
+    w = walls_of(mesh, scale_x, scale_y, apart)
     start = sharpest(w)
     is_done, c = cuts_of(w)
     a = no_pieces(0)
+    miss, x, y = np.inf, w.x[start], w.y[start]
     if is_done:
         is_done, q = sites_of(w, c, start)
         if is_done:
             is_done, a = rolled(w, c, q)
+            if is_done:
+                miss, x, y = worst_disc(w, a)
+            else:
+                last = a.numbers[NODES] - 1
+                x, y = a.node[last, 0], a.node[last, 1]
     points, radius, edges = drawn(mesh, w, a, tolerance, scale_x, scale_y)
-    return is_done, points, radius, edges
+    origin = w.vertex[0]
+    fault = Fault(miss, mesh.x[origin] + x / scale_x, mesh.y[origin] + y / scale_y)
+    return miss <= MISS * w.extent, points, radius, edges, fault
 
 
 @njit()

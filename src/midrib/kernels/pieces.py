@@ -16,7 +16,10 @@ from midrib.kernels.walls import Walls
 from midrib.types import Floats, Ints
 
 __all__ = [
+    "NODES",
+    "PIECES",
     "Pieces",
+    "chief_of",
     "drawn",
     "join_at_cuts",
     "no_pieces",

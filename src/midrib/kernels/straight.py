@@ -32,6 +32,7 @@ from midrib.kernels.traces import (
 )
 from midrib.kernels.triangulation import flip, next_side, previous_side
 from midrib.kernels.wavefront import (
+    APART,
     BACK,
     EDGE,
     FACING,
@@ -52,6 +53,7 @@ from midrib.types import Floats, Ints
 
 __all__ = ["Roof", "straight_skeleton"]
 
+LATE = 2.0**-24  # of the extent: about how long vertices of edges that nearly face each other take
 FLIPS = 64  # for each triangle; a handful is usual
 
 
@@ -97,14 +99,18 @@ def settle(w: Wavefront, e: int, a: int, now: float) -> None:
 
 @njit(borrows=True)
 def rush_end(w: Wavefront, a: int, fast: int, k: int, now: float) -> float:
-    """When vertex a meets the line of edge k, which faces the edge that ``fast`` rushes along to a.
+    """When vertex a meets the line of edge k, which ``fast`` goes along to a.
 
-    They face each other but for an angle, and meet here that much later than where it set out.
+    If it rushes along an edge that k faces, but for an angle, they meet here that much later than
+    where it set out. If it is only as fast as that, or has turned too far where two fast ones met,
+    ``now`` is as uncertain as its speed: by little, or else other lines meet here.
     """
-    if w.rush[fast] == NO or w.rush[a] != NO or abs(w.turn[fast] - np.pi) > FACING:
+    if w.rush[a] != NO or w.turn[fast] < np.pi - APART:
         return now
     height, rate = descent(w, a, k, now)
-    return now + height / rate if rate > 0.0 else now
+    late = height / rate if rate > 0.0 else 0.0
+    is_facing = w.rush[fast] != NO and abs(w.turn[fast] - np.pi) <= FACING
+    return now + late if is_facing or abs(late) <= LATE else now
 
 
 @njit(borrows=True)

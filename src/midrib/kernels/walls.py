@@ -2,6 +2,7 @@ r"""Walls: the boundary of an area as its inside sees it, one segment after the 
 
 Walls follow each other around the inside, which is on their left. Where rings touch, the inside
 may see one loop of walls where there are two rings, and several corners where there is one point.
+Vertices so near each other that rounding says where the way between them leads are one.
 
                   following
                   \  inside        corner of wall k: the point where it starts. If the inside
@@ -85,9 +86,52 @@ def sides_in_loops(mesh: Mesh) -> tuple[Ints, Ints]:
 
 
 @njit()
-def walls_of(mesh: Mesh, scale_x: float, scale_y: float) -> Walls:
-    """Walls of an area; ``scale_x`` and ``scale_y`` are lengths of one unit of x and of y. O(n)."""
+def sides_apart(
+    mesh: Mesh, side: Ints, starts: Ints, scale_x: float, scale_y: float, apart: float
+) -> tuple[Ints, Ints]:
+    """Leave out sides that start no farther than ``apart`` from the one kept before, in its loop.
+
+    What starts where rings touch is kept, and so is a loop of which no three sides would be left.
+    """
+    ways, kept, kept_starts = np.zeros(mesh.x.size, np.intp), side.copy(), starts.copy()
+    for e in side:
+        ways[mesh.tri[e]] += 1
+    count = 0
+    for ring in range(starts.size - 1):
+        first = count
+        for i in range(starts[ring], starts[ring + 1] + 1):
+            is_closed = i == starts[ring + 1]  # the first one kept follows the last one
+            v = mesh.tri[kept[first] if is_closed else side[i]]
+            if count > first + is_closed:
+                u = mesh.tri[kept[count - 1]]
+                x, y = (mesh.x[v] - mesh.x[u]) * scale_x, (mesh.y[v] - mesh.y[u]) * scale_y
+                if length(x, y) <= apart:
+                    if ways[v] == 1 and not is_closed:
+                        continue
+                    if ways[u] == 1:
+                        count -= 1
+            if not is_closed:
+                kept[count] = side[i]
+                count += 1
+        if count - first < 3:
+            count = first
+            for i in range(starts[ring], starts[ring + 1]):
+                kept[count] = side[i]
+                count += 1
+        kept_starts[ring + 1] = count
+    return kept[:count], kept_starts
+
+
+@njit()
+def walls_of(mesh: Mesh, scale_x: float, scale_y: float, apart: float) -> Walls:
+    """Walls of an area; O(n).
+
+    ``scale_x`` and ``scale_y`` are lengths of one unit of x and of y; vertices that follow each
+    other no farther ``apart``, of the extent, are one.
+    """
     side, starts = sides_in_loops(mesh)
+    wide, high = np.ptp(mesh.x) * scale_x, np.ptp(mesh.y) * scale_y
+    side, starts = sides_apart(mesh, side, starts, scale_x, scale_y, apart * length(wide, high))
     loops = starts.size - 1
     n = side.size + loops
     x, y, ux, uy = np.empty(n), np.empty(n), np.zeros(n), np.zeros(n)

@@ -36,6 +36,7 @@ from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
 __all__ = [
+    "APART",
     "EDGE",
     "FLIP",
     "NEAR",
