@@ -117,7 +117,7 @@ def test_a_refusal_says_where(monkeypatch: pytest.MonkeyPatch) -> None:
 @given(area=gapped())
 @settings(max_examples=300)
 def test_radii_are_distances_where_walls_nearly_touch(area: Polygon) -> None:
-    """A few in a hundred thousand such areas are refused, none has a wrong radius."""
+    """Some areas are refused, none has a wrong radius."""
     try:
         found = skeleton(area)
     except InvariantError as error:
