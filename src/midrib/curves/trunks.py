@@ -72,12 +72,15 @@ def way_between(graph: Graph, ends: Floats, scale: Scale) -> Floats:
         if way.size == 0:
             msg = "the skeleton is in pieces between the two ends; a smaller spacing may join them"
             raise InvalidAreaError(msg)
-        for k, onwards in enumerate((way, way[::-1])):
-            step, place = nearest_ahead(points[onwards], ends[k], scale)
-            if (place != points[leaves[k]]).any():
+        line = points[way]
+        for k, ahead in enumerate((line, line[::-1])):
+            nearer = nearest_ahead(ahead, ends[k], scale)
+            if nearer is not None:
                 break
         else:
-            return points[way]
+            return line
+        step, place = nearer
+        onwards = way if k == 0 else way[::-1]
         leaves[k] = int(onwards[step])
         if (place != points[leaves[k]]).any():
             side = onwards[step : step + 2]
@@ -98,20 +101,22 @@ def last_before(graph: Graph, end: Floats, scale: Scale) -> int:
     return int(np.argmin(np.where(is_beside & ~is_beside.all(), np.inf, away - graph.radius)))
 
 
-def nearest_ahead(way: Floats, end: Floats, scale: Scale) -> tuple[int, Floats]:
+def nearest_ahead(way: Floats, end: Floats, scale: Scale) -> tuple[int, Floats] | None:
     """Where a way that leads away from an end first stops coming nearer to it.
 
     Returns
     -------
     step : int
-    place : (2,) on that step: where the way begins if it comes no nearer at first
+    place : (2,) on that step; or None if the way comes no nearer at first
     """
-    off = (way - end) * scale
     step, place = len(way) - 1, way[-1]
-    for k, ahead in enumerate(np.diff(off, axis=0)):
-        towards, squared = -float(off[k] @ ahead), float(ahead @ ahead)
+    for k in range(step):
+        off, ahead = (way[k] - end) * scale, (way[k + 1] - way[k]) * scale
+        towards, squared = -float(off @ ahead), float(ahead @ ahead)
+        if k == 0 and towards <= 0.0:  # as most ways do
+            return None
         if towards < squared:
             step, place = k, way[k] + max(towards, 0.0) / squared * (way[k + 1] - way[k])
             break
-    is_nearer = np.hypot(*((place - end) * scale)) < np.hypot(*off[0])
-    return (step, place) if is_nearer else (0, way[0])
+    before, after = np.hypot(*((np.stack([way[0], place]) - end) * scale).T)
+    return (step, place) if after < before else None
