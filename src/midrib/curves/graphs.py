@@ -1,4 +1,4 @@
-"""Skeletons as graphs: their radii, branches that are pruned, and the trunk.
+"""Skeletons as graphs: their radii, and branches that are pruned.
 
 Every method that finds a skeleton makes a ``Graph`` of an area; what is done with it is here.
 """
@@ -7,20 +7,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.curves.finding import Found
-from midrib.curves.joining import heights_of
-from midrib.errors import InvalidAreaError
 from midrib.kernels.clearance import clearances
-from midrib.kernels.graph import branches_of, shortest_way
-from midrib.kernels.joining import join_beads
-from midrib.kernels.paths import Beads
-from midrib.layout import Layout, Scale
+from midrib.kernels.graph import branches_of
+from midrib.layout import Scale
 from midrib.types import Floats, Ints
 
-__all__ = ["Branches", "Graph", "pruned", "radii_of", "trunk_of"]
+__all__ = ["Branches", "Graph", "pruned", "radii_of"]
 
 STAY = 1  # ways that a junction keeps when its branches are pruned: it may become a tip
-WAYS = 2  # of a point that is no tip
 
 
 class Graph(NamedTuple):
@@ -109,49 +103,3 @@ def doomed_of(
     turn = np.arange(weak.size) - first
     doomed: Ints = weak[turn < degree[junction[weak]] - STAY]
     return doomed
-
-
-def last_before(graph: Graph, end: Floats, scale: Scale) -> int:
-    """Row of the point at which the trunk leaves for an end: its disc reaches nearest to it.
-
-    In a flat end that is the last disc that touches it, in a sharp one the tip itself. Other tips
-    are in corners beside the end.
-    """
-    away = np.hypot(*((graph.points - end) * scale).T)
-    degree = np.bincount(graph.edges.ravel(), minlength=len(graph.points))
-    is_beside = (degree < WAYS) & (away > 0.0)
-    return int(np.argmin(np.where(is_beside & ~is_beside.all(), np.inf, away - graph.radius)))
-
-
-def trunk_of(graph: Graph, layout: Layout) -> Found:
-    """Shortest way through a skeleton between the two ends of an area, and on to these ends.
-
-    It leaves the skeleton at the end itself if that is a tip, else in the middle of a disc that
-    reaches nearest to it: in a flat end, of the last disc that touches it.
-
-    Raises
-    ------
-    InvalidAreaError
-        If no way leads there.
-    """
-    scale, ends = layout.scale, layout.middle
-    first, last = (last_before(graph, end, scale) for end in ends.point)
-    way = shortest_way(graph.points, graph.edges, first, last, *scale)
-    if way.size == 0:
-        msg = "the skeleton is in pieces between the two ends; a smaller spacing may join them"
-        raise InvalidAreaError(msg)
-    inner = graph.points[way]
-    rows = np.array([0] * (len(inner) + 1) + [1])  # whose search each point's begins with
-    beads = Beads(
-        np.concatenate([ends.point[:1], inner, ends.point[1:]]),
-        ends.origin[rows],
-        ends.at[rows, 0],
-        ends.at[rows, 1],
-    )
-    joined, source, loops, _ = join_beads(layout.mesh, beads, *scale)
-    if len(joined) < 2:
-        msg = "the trunk is one point; a line needs two"
-        raise InvalidAreaError(msg)
-    height = np.full(len(beads.point), np.nan)
-    height[0], height[-1] = ends.height
-    return Found(joined, heights_of(layout, joined, source, height), loops)

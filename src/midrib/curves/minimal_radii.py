@@ -182,8 +182,9 @@ def minimal_radii(
         the result is without holes.
     channel : {"shorter", "wider"}, default "shorter"
         On which side a centred curve passes each island that is "blocked". "shorter": where the
-        shortest way between the radii does. "wider": through the channels whose narrowest place
-        is widest, over all ways from end to end.
+        shortest way from each radius to the next does, which is not always the shortest from end
+        to end. "wider": through the channels whose narrowest place is widest, over all ways from
+        end to end.
 
     Returns
     -------

@@ -8,10 +8,10 @@ from shapely import MultiLineString
 
 from midrib.checks import is_number, shown
 from midrib.curves.each import find_in_each
-from midrib.curves.graphs import trunk_of
 from midrib.curves.heights import heights_inside
 from midrib.curves.networks import network_lines
 from midrib.curves.skeletons import graph_finder, pruning
+from midrib.curves.trunks import trunk_of
 from midrib.errors import ParameterError
 
 if TYPE_CHECKING:

@@ -8,11 +8,12 @@ import numpy as np
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 
 from midrib.curves.each import find_in_each
-from midrib.curves.graphs import Graph, trunk_of
 from midrib.curves.skeletons import graph_finder, pruning
+from midrib.curves.trunks import trunk_of
 from midrib.kernels.graph import branches_of
 
 if TYPE_CHECKING:
+    from midrib.curves.graphs import Graph
     from midrib.layout import Layout, Scale
     from midrib.types import Floats, Ints
 

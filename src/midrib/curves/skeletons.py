@@ -8,7 +8,8 @@ from shapely import LineString, Polygon
 from midrib.checks import is_number, shown
 from midrib.curves.axes import AXES
 from midrib.curves.finding import Finder, Found, made
-from midrib.curves.graphs import Graph, pruned, trunk_of
+from midrib.curves.graphs import Graph, pruned
+from midrib.curves.trunks import trunk_of
 from midrib.errors import ParameterError
 from midrib.ragged import normalised, pack_areas
 from midrib.strip import divide

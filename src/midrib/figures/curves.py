@@ -12,10 +12,10 @@ from midrib.curves.aftercare import aftercare
 from midrib.curves.axes import AXES
 from midrib.curves.collapse import lines_of_parts
 from midrib.curves.finding import Found
-from midrib.curves.graphs import trunk_of
 from midrib.curves.log import Joint, Log
 from midrib.curves.methods import OF_METHOD, construction_of_collapse, finder_of
 from midrib.curves.parts import filled_parts, valid_parts
+from midrib.curves.trunks import trunk_of
 from midrib.ragged import normalised
 from midrib.strip import divide
 
