@@ -27,6 +27,26 @@ class Case(NamedTuple):
     tells_stations: bool = False
 
 
+class Parabolic(Tower):
+    """A tower whose batter is a parabola that ends upright."""
+
+    def radius(self, s: Floats) -> Floats:
+        """Radius at heights."""
+        share = 1.0 - np.asarray(s) / self.height
+        radii: Floats = self.top_radius + (self.base_radius - self.top_radius) * share**2
+        return radii
+
+
+class Broken(Tower):
+    """A tower whose batter breaks half way up."""
+
+    def radius(self, s: Floats) -> Floats:
+        """Radius at heights."""
+        heights = [0.0, self.height / 2.0, self.height]
+        radii: Floats = np.interp(s, heights, [self.base_radius, 2.3, self.top_radius])
+        return radii
+
+
 def dirty(seed: int, tower: Tower, **changes: object) -> Scan:
     """Three stations, noise of 2 to 5 mm, ladder, platforms, antennas, strays."""
     usual = Scan(
@@ -52,6 +72,25 @@ CASES = (
     Case(
         "clean",
         lambda seed: Scan(replace(LEANING, seed=seed), COUNT, noise=(0.002, 0.005), seed=seed),
+        0.4,
+        "round",
+    ),
+    Case(
+        "parabolic batter",
+        lambda seed: Scan(
+            Parabolic(100.0, 5.0, 2.0, lean=0.16, bend=0.03, seed=seed),
+            COUNT,
+            noise=(0.002, 0.005),
+            seed=seed,
+        ),
+        0.4,
+        "round",
+    ),
+    Case(
+        "broken batter",
+        lambda seed: Scan(
+            Broken(60.0, 3.1, 2.0, lean=0.1, seed=seed), COUNT, noise=(0.002, 0.004), seed=seed
+        ),
         0.4,
         "round",
     ),

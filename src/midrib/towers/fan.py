@@ -19,8 +19,8 @@ from shapely import LineString
 from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError, ParameterError
 from midrib.strip import Strip
-from midrib.towers.joint import tukey
 from midrib.towers.levels import Centres
+from midrib.towers.weights import tukey
 
 if TYPE_CHECKING:
     from midrib.towers.pipeline import Options, Shell

@@ -19,9 +19,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.towers.blocks import factor_of, product
+from midrib.towers.rings import beyond_rings
 from midrib.towers.scatter import long_wave_variance
 from midrib.towers.smoothing import best_stiffness
 from midrib.towers.splines import Basis, basis_on
+from midrib.towers.weights import lost_to_weights, tukey
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
@@ -29,10 +31,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit", "fit_cells", "normals_of"]
 
-KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
-# Metres: less than that is never clutter, but bends that a clean scan shows and splines miss.
-LEAST_SPREAD = 3e-4
-TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
+KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 2.5, 20.0  # metres
+ROUNDS, CHOOSING = 14, (2, 5)
+WEIGHED = 2  # times that a pliant curve's own residuals weigh, before they tell the variance
+SETTLED = 0.5  # of the pliant taper's stiffness: where the next one is no softer, it is found
 GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
 LEAST_ERROR = 1e-6  # metres: of a cell, where there is no noise at all
@@ -182,18 +184,22 @@ def fit_cells(
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
+    beyond = None if len(cells.reference.faces) else beyond_rings(cells, prior, unit)
+    if beyond is not None:
+        # The rings alone weigh: by a fit's own residuals a zone that it misses would be thrown out,
+        # and the fit, free of it, would miss more of it the next time.
+        weight = prior * tukey(beyond, prior > 0.0, unit)
+        variance, stiffness = chosen_by_turns(cells, design, known, model, prior, weight, unit)
     for round_ in range(ROUNDS):
         normal, right = product(design, weight, design), design.T @ (weight * known)
         inverse = factor_of(normal + variance * model.penalty(*stiffness))
         bends = inverse.solve(right)
         residual = known - design @ bends
+        if beyond is not None:
+            break
         if round_ in CHOOSING and not rough:
-            # What a pliant curve leaves is error; a stiff one leaves the tower's own bends too.
-            pliant = factor_of(normal + model.penalty(*(unit**3 * k for k in PLIANT)))
-            left = known - design @ pliant.solve(right)
-            variance = long_wave_variance(cells, design, normal, pliant, weight, left, unit)
-            variance *= lost_to_weights(residual, weight, unit) ** 2
-            variance = max(variance, (LEAST_ERROR * unit) ** 2)
+            pliant = model.penalty(*(unit**3 * k for k in PLIANT))
+            variance, _ = variance_left(cells, design, known, pliant, weight, unit)
             stiffness = best_stiffness(normal / variance, right / variance, model, unit)
         before, weight = weight, prior * tukey(residual, prior > 0.0, unit)
         if round_ > max(CHOOSING) and np.abs(weight - before).max() < 0.01:
@@ -204,6 +210,53 @@ def fit_cells(
         covariance = factor_of(told).solve(np.eye(len(told)))
     whole = straight + bends
     return Fit(model, whole, covariance, weight, residual, stiffness, bends, variance)
+
+
+def chosen_by_turns(
+    cells: "Cells",
+    design: "Any",
+    known: "Floats",
+    model: Model,
+    prior: "Floats",
+    weight: "Floats",
+    unit: float,
+) -> tuple[float, tuple[float, float]]:
+    """Long-wave variance and the likeliest stiffnesses of a batter that may bend, by turns.
+
+    A pliant taper that is too stiff leaves the batter's own bends, which count as errors; a soft
+    one follows the wall's bumps, which then do not. So it is as stiff as the likeliest, and that is
+    found by and by. The variance goes by the curve's own residuals: rings know no axis, and with
+    their weights cells beside a sharp kink, which no spline follows, would count as errors of the
+    whole wall, so that kinks drown in them.
+    """
+    normal, right = product(design, weight, design), design.T @ (weight * known)
+    axis, taper = (unit**3 * k for k in PLIANT)
+    for _ in range(ROUNDS):
+        pliant, own = model.penalty(axis, taper), weight
+        for _ in range(WEIGHED):
+            _, left = variance_left(cells, design, known, pliant, own, unit)
+            own = prior * tukey(left, prior > 0.0, unit)
+        variance, _ = variance_left(cells, design, known, pliant, own, unit)
+        stiffness = best_stiffness(normal / variance, right / variance, model, unit)
+        before, taper = taper, min(taper, variance * stiffness[1])
+        if taper > SETTLED * before:
+            break
+    return variance, stiffness
+
+
+def variance_left(
+    cells: "Cells", design: "Any", known: "Floats", pliant: "Floats", weight: "Floats", unit: float
+) -> "tuple[float, Floats]":
+    """Long-wave variance of a cell by what a pliant curve leaves (n,), and this.
+
+    What it leaves is error; a stiff curve leaves the tower's own bends too.
+    """
+    normal = product(design, weight, design)
+    inverse = factor_of(normal + pliant)
+    left = known - design @ inverse.solve(design.T @ (weight * known))
+    variance = long_wave_variance(cells, design, normal, inverse, weight, left, unit)
+    variance *= lost_to_weights(left, weight, unit) ** 2
+    return max(variance, (LEAST_ERROR * unit) ** 2), left
 
 
 def grazed(cells: "Cells", unit: float) -> "Bools":
@@ -225,26 +278,6 @@ def grazed(cells: "Cells", unit: float) -> "Bools":
     near &= ~near.all(axis=1)[:, None]
     found: Bools = near[cells.level // rise, cells.sector]
     return found
-
-
-def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
-    """Weights by the size of residuals."""
-    weight: Floats = np.clip(1.0 - shares(residual, rows, unit) ** 2, 0.0, 1.0) ** 2
-    return weight
-
-
-def lost_to_weights(residual: "Floats", weight: "Floats", unit: float) -> float:
-    """How much smaller weighted errors are than what they do to the fit: mean w over mean ψ'."""
-    rows = weight > 0.0
-    square = np.clip(shares(residual, rows, unit)[rows] ** 2, 0.0, 1.0)
-    return float(weight[rows].mean() / max(((1.0 - square) * (1.0 - 5.0 * square)).mean(), 0.1))
-
-
-def shares(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
-    """Residuals as shares of the smallest that has no weight."""
-    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
-    share: Floats = residual / (TUKEY * spread)
-    return share
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":
