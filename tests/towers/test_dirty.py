@@ -98,12 +98,31 @@ def test_an_oval_is_recognised_with_its_size_and_direction() -> None:
     assert np.nanmax(offsets(axis, scan)) < 1e-3
 
 
-@pytest.mark.parametrize(("faces", "name"), [(4, "square"), (6, "polygon"), (8, "polygon")])
-def test_faces_are_recognised(faces: int, name: str) -> None:
+@pytest.mark.parametrize("faces", range(4, 13))
+def test_faces_are_recognised(faces: int) -> None:
+    name = "square" if faces == 4 else "polygon"
     scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))
     axis = tower_axis(scan.points())
     assert (axis.shape.name, axis.shape.faces) == (name, faces)
     assert np.nanmax(offsets(axis, scan)) < 2e-3
+
+
+@pytest.mark.parametrize("faces", range(5, 13))
+def test_half_of_the_faces_are_not_taken_for_all(faces: int) -> None:
+    """Every other face of an octagon is a square's, and some are seen from neither station."""
+    tower = Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=7.0)
+    scan = dirty(tower, azimuths=(0.0, 100.0), count=80_000, seed=8)
+    axis = tower_axis(scan.points())
+    assert axis.shape.faces == faces
+    assert np.nanmax(offsets(axis, scan)) < 2e-3
+
+
+@pytest.mark.parametrize("faces", [7, 9, 12])
+def test_faces_taken_for_a_circle_are_flagged_with_their_number(faces: int) -> None:
+    scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))
+    axis = tower_axis(scan.points(), shape="round")
+    assert axis.shape.problem.startswith(f"section not circular: harmonic {faces},")
+    assert (axis.levels["flag"] != "").all()
 
 
 def test_a_square_seen_from_one_side_is_refused() -> None:
