@@ -48,6 +48,21 @@ def test_sigma_is_as_large_as_the_error(length: float) -> None:
     assert 0.35 < np.mean(squares) < 2.0
 
 
+@pytest.mark.parametrize("length", [0.1, 1.0])
+def test_sigma_of_the_fan_knows_patches_that_planes_share(length: float) -> None:
+    held = []
+    for seed in range(4):
+        tower = Tower(40.0, 3.0, 2.0, lean=0.1, form_error=0.005, form_length=length, seed=seed)
+        scan = dirty(tower, seed=seed, count=100_000)
+        levels = tower_axis(scan.points(), "fan").levels
+        levels = levels[np.isfinite(levels["x"])]
+        off = np.column_stack([levels["x"], levels["y"]]) - scan.axis(levels["z"])
+        sigma = np.column_stack([levels["sigma_x"], levels["sigma_y"]])
+        held.append(np.mean(np.abs(off) <= 1.96 * sigma))
+        assert not (np.hypot(*off.T)[levels["flag"] == ""] > 5e-3).any()
+    assert 0.9 <= np.mean(held) <= 0.98
+
+
 def test_levels_that_may_be_far_off_are_flagged() -> None:
     tower = Tower(40.0, 2.5, 1.5, lean=0.1, form_error=0.012, form_length=1.0, seed=2)
     scan = dirty(tower)

@@ -17,7 +17,7 @@ import numpy as np
 from midrib.towers.rough import Frame, Rough, Search, frame_along, off_shell, slabs_of
 
 if TYPE_CHECKING:
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
 __all__ = ["rough_polygon"]
 
@@ -115,7 +115,7 @@ def fitted(
 
 
 def nearest_three(
-    design: "Floats", offset: "Floats", face: "Floats", count: int, near: float
+    design: "Floats", offset: "Floats", face: "Ints", count: int, near: float
 ) -> "Floats":
     """Weights (k,) of offsets to begin with: 1 where they agree with the best three faces.
 
