@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.towers.blocks import factor_of, product
+from midrib.towers.grazing import grazed
 from midrib.towers.rings import beyond_rings
 from midrib.towers.scatter import long_wave_variance
 from midrib.towers.smoothing import best_stiffness
@@ -31,11 +32,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit", "fit_cells", "normals_of"]
 
-KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 2.5, 20.0  # metres
+KNOTS, OVAL_KNOTS = 2.5, 20.0  # metres: of axis and taper, of ovals
 ROUNDS, CHOOSING = 14, (2, 5)
 WEIGHED = 2  # times that a pliant curve's own residuals weigh, before they tell the variance
+MIXED = 1e-3  # weight of cells that a leap may go through
 SETTLED = 0.5  # of the pliant taper's stiffness: where the next one is no softer, it is found
-GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
 LEAST_ERROR = 1e-6  # metres: of a cell, where there is no noise at all
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
@@ -60,8 +61,8 @@ class Model(NamedTuple):
     @property
     def bends(self) -> tuple[int, int]:
         """Numbers of coefficients that axis stiffness and taper stiffness hold."""
-        oval = 0 if self.oval is None else 2 * (self.oval.size - 2)
-        return 2 * (self.axis.size - 2), self.taper.size - 2 + oval
+        oval = 0 if self.oval is None else 2 * (self.oval.smooth - 2)
+        return 2 * (self.axis.smooth - 2), self.taper.smooth - 2 + oval
 
     @property
     def straight(self) -> "Floats":
@@ -71,7 +72,7 @@ class Model(NamedTuple):
         starts = [0, *ends[:-1]]
         for k, basis in enumerate((self.axis, self.axis, self.taper)):
             rows = slice(starts[k], ends[k])
-            lines[rows, 2 * k], lines[rows, 2 * k + 1] = 1.0, basis.averages
+            lines[rows, 2 * k : 2 * k + 2] = basis.lines
         return lines
 
     def penalty(self, axis: float, taper: float) -> "Floats":
@@ -119,6 +120,13 @@ class Fit:
             [design @ self.coefficients[:n], design @ self.coefficients[n : 2 * n]]
         )
 
+    def leaps(self) -> "tuple[Floats, Floats]":
+        """Sizes (m, 2) of the leaps of x and y, and their standard deviations."""
+        n, m = self.model.axis.size, len(self.model.axis.leaps)
+        rows = np.array([np.arange(n - m, n), np.arange(2 * n - m, 2 * n)]).T
+        sigma = np.sqrt(np.diag(self.covariance))
+        return self.coefficients[rows], sigma[rows]
+
     def oval(self, s: "Floats") -> "Floats":
         """Coefficients e and f (n, 2) at heights; zero if the model is round."""
         if self.model.oval is None:
@@ -156,9 +164,16 @@ def normals_of(cells: "Cells") -> "tuple[Floats, Bools]":
 
 
 def fit_cells(
-    cells: "Cells", unit: float, *, is_oval: bool = False, knots: float = KNOTS, rough: bool = False
+    cells: "Cells",
+    unit: float,
+    *,
+    is_oval: bool = False,
+    leaps: "Floats | tuple[float, ...]" = (),
+    rough: bool = False,
 ) -> Fit:
     """Fit axis and taper to cells; a ``rough`` fit has the usual stiffnesses and no covariance.
+
+    At the heights ``leaps`` the axis leaps; cells that are partly below one hardly count.
 
     Notes
     -----
@@ -168,10 +183,10 @@ def fit_cells(
     what a smooth curve misses. O(n log n) for n cells, and dense solutions for the unknowns.
     """
     low, high = float(cells.s.min()), float(cells.s.max())
-    spacing = max(knots * unit, 2.0 * cells.grid.level)
+    spacing = max(KNOTS * unit, 2.0 * cells.grid.level)
     model = Model(
+        basis_on(low, high, spacing, leaps),
         basis_on(low, high, spacing),
-        basis_on(low, high, max(TAPER_KNOTS * unit, spacing)),
         basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
     )
     design, known = design_of(cells, model)
@@ -181,6 +196,8 @@ def fit_cells(
     known = known - design @ straight
     _, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
+    for leap in leaps:
+        prior[np.abs(cells.s - leap) <= cells.grid.level] *= MIXED
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
@@ -257,27 +274,6 @@ def variance_left(
     variance = long_wave_variance(cells, design, normal, inverse, weight, left, unit)
     variance *= lost_to_weights(left, weight, unit) ** 2
     return max(variance, (LEAST_ERROR * unit) ** 2), left
-
-
-def grazed(cells: "Cells", unit: float) -> "Bools":
-    """Which cells lie where beams graze the shell: next to a part that is not seen.
-
-    There a beam is half on the shell and half behind it, and its points lie a few millimetres in.
-    """
-    grid = cells.grid
-    seen = np.zeros((grid.n_levels, grid.n_sectors), dtype=np.bool_)
-    seen[cells.level, cells.sector] = True
-    rise = max(1, round(GAP_HEIGHT * unit / grid.level))
-    bands = np.add.reduceat(seen, np.arange(0, grid.n_levels, rise), axis=0) > 0
-    wide = max(1, round(GAP / 360.0 * grid.n_sectors))
-    hidden = np.all([np.roll(~bands, k, axis=1) for k in range(wide)], axis=0)
-    hidden = np.any([np.roll(hidden, -k, axis=1) for k in range(wide)], axis=0)
-    margin = max(1, round(GRAZED / 360.0 * grid.n_sectors))
-    near = np.any([np.roll(hidden, k, axis=1) for k in range(-margin, margin + 1)], axis=0)
-    # What has hidden parts everywhere is a net of few points, not a shell seen from one side.
-    near &= ~near.all(axis=1)[:, None]
-    found: Bools = near[cells.level // rise, cells.sector]
-    return found
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":

@@ -1,15 +1,16 @@
-"""Kinks: heights at which the axis turns more suddenly than a smooth curve does.
+"""Kinks and offsets: heights at which the axis turns, or leaps, as no smooth curve does.
 
 h_j(s)    hinge: 0 below the height s_j, s - s_j above it
-β         change of direction there, of x and y
+l_j(s)    leap: 0 below, 1 above
+β         change of direction, or offset, there, of x and y
 λ, τ²     stiffness of the smooth axis and long-wave variance of a cell, as of the joint fit
 
 Polynomials up to a degree are free of the penalty: they bend the tower as a whole, and would make
-the rest as pliant. The joint model with β h_j in its axis is held against the one without it: by
-how much -2 log L falls, each with the stiffness that suits it best. An axis that bends smoothly
+the rest as pliant. The joint model with β h_j or β l_j in its axis is held against the one without:
+by how much -2 log L falls, each with the stiffness that suits it best. An axis that bends smoothly
 near by is pliant anyway and gains little by a hinge; one that is straight on either side of a kink
-gains much, for without the hinge all of it has to be pliant. The best kink is taken in and the
-search goes on beside it; in the end each has to be certain beside all others.
+gains much, for without the hinge all of it has to be pliant. The best of all hinges and leaps is
+taken in and the search goes on beside it; in the end each has to be certain beside all others.
 
 References
 ----------
@@ -30,22 +31,23 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.towers.joint import Fit
     from midrib.towers.splines import Basis
-    from midrib.types import Floats
+    from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Kink", "kinks_of"]
+__all__ = ["Breaks", "Kink", "Offset", "breaks_of", "offsets_of"]
 
-END, APART = 5.0, 5.0  # metres from either end, and between kinks, at the least
-STEP, MOST = 0.5, 240  # metres between heights of kinks; how many of them at the most
+END, APART = 5.0, 5.0  # metres from either end, and between breaks, at the least
+STEP, MOST = 0.5, 240  # metres between heights of breaks; how many of them at the most
 SEARCHED = 2  # every second height is tried at first, and
 STIFFNESSES = AXIS_STIFFNESS[::2]  # every second stiffness: a factor of 10 is near enough
 CERTAIN = 24.0  # fall of -2 log L: by chance once in 1000 towers of 100 m, bends aside
 WORTH = 10.0  # the same, to be taken in for a trial: kinks hide each other till all are in
 LEAST_KINK = 2e-4  # change of direction: less is nothing, however certain
+LEAST_OFFSET = 1e-3  # metres: the same
 BEND, BENDS = 10.0, (3, 7)  # metres of a tower for each degree of what bends all of it; bounds
 LEAST_NOISE = 1e-4  # metres, of a cell: bends that splines miss, where a scan has less noise
 SUDDEN = 0.25  # of what the axis turns by from 2.5 m below to 2.5 m above: less is a bend's
-FEW = 20  # kinks: an axis with more is no axis with kinks
-MENDED = 3.0  # metres: a kink may move so far once its neighbours are known
+FEW = 20  # breaks: an axis with more is no axis with kinks
+MENDED = 3.0  # metres: a break may move so far once its neighbours are known
 
 
 class Kink(NamedTuple):
@@ -55,6 +57,22 @@ class Kink(NamedTuple):
     turn: float  # mm per m
     azimuth: float  # degrees from y clockwise: where the axis turns to
     sigma: float  # mm per m
+
+
+class Offset(NamedTuple):
+    """A step of the axis, as between two casting lifts; lengths in coordinate units."""
+
+    z: float
+    size: float
+    azimuth: float  # degrees from y clockwise: where what is above stands
+    sigma: float
+
+
+class Breaks(NamedTuple):
+    """What is not smooth about an axis, from the base up."""
+
+    kinks: list[Kink]
+    leaps: "Floats"  # heights of the frame at which there are offsets
 
 
 class Problem(NamedTuple):
@@ -76,95 +94,127 @@ class Problem(NamedTuple):
         return self._replace(design=design, penalties=penalties)
 
 
+class Trials(NamedTuple):
+    """Hinges and leaps that are tried: two columns (n, 2) of a design each."""
+
+    heights: "Floats"  # (m,)
+    is_leap: "Bools"  # (m,)
+    columns: "list[Floats]"
+    apart: float  # two that are chosen are so far apart at the least
+
+    def free(self, rows: "Ints", chosen: list[int]) -> list[int]:
+        """Those of some rows that are far enough from all that are chosen."""
+        away = np.abs(self.heights[rows][:, None] - self.heights[chosen])
+        return [int(i) for i in rows[(away >= self.apart * (1.0 - 1e-9)).all(axis=1)]]
+
+
 class Gain(NamedTuple):
-    """What hinges are good for."""
+    """What hinges and leaps are good for."""
 
     fall: "Floats"  # (m,) of -2 log L
-    turn: "Floats"  # (m, 2)
-    sigma: "Floats"  # (m,) of either part of a turn
+    size: "Floats"  # (m, 2) of what each changes: direction, or place
+    sigma: "Floats"  # (m,) of either part of it
 
 
-def kinks_of(cells: "Cells", fit: "Fit", unit: float) -> list[Kink]:
-    """Find the kinks of an axis, from the base up.
+def breaks_of(cells: "Cells", fit: "Fit", unit: float) -> Breaks:
+    """Find the kinks and offsets of an axis.
 
     Notes
     -----
-    Forward selection, then each kink once more given the others; those that are not certain beside
-    the others go. O(q m n) for q kinks, m heights that are tried and n cells.
+    Forward selection, then each break once more given the others; those that are not certain beside
+    the others go. O(q m n) for q breaks, m heights that are tried and n cells.
     """
     low, high = float(cells.s.min()) + END * unit, float(cells.s.max()) - END * unit
     if high <= low:
-        return []
-    step = max(STEP * unit, (high - low) / MOST)
-    heights = np.arange(low, high, step)
-    hinges = [hinge_of(cells, at) for at in heights]
+        return Breaks([], np.zeros(0))
+    trials = trials_at(cells, np.arange(low, high, max(STEP * unit, (high - low) / MOST)), unit)
     problem = problem_of(cells, fit, unit)
+    chosen = chosen_of(problem, trials, unit)
+    kinks, leaps = [], []
+    for k in sorted(range(len(chosen)), key=lambda k: trials.heights[chosen[k]]):
+        others = chosen[:k] + chosen[k + 1 :]
+        gain = gain_of(beside(problem, trials, others), [trials.columns[chosen[k]]])
+        s, size = float(trials.heights[chosen[k]]), float(np.hypot(*gain.size[0]))
+        if trials.is_leap[chosen[k]]:
+            leaps += [s] * (size > LEAST_OFFSET * unit)
+        elif size > least_turn(fit, s, unit):
+            azimuth, sigma = towards(cells, gain.size[0]), 1e3 * float(gain.sigma[0])
+            kinks.append(Kink(height_of(cells, fit, s), 1e3 * size, azimuth, sigma))
+    return Breaks(kinks, np.array(leaps))
+
+
+def offsets_of(cells: "Cells", fit: "Fit") -> list[Offset]:
+    """Tell the offsets of an axis that leaps."""
+    return [
+        Offset(
+            height_of(cells, fit, s),
+            float(np.hypot(*size)),
+            towards(cells, size),
+            float(np.sqrt(np.mean(sigma**2))),
+        )
+        for s, size, sigma in zip(fit.model.axis.leaps, *fit.leaps(), strict=True)
+    ]
+
+
+def height_of(cells: "Cells", fit: "Fit", s: float) -> float:
+    """Height z of the axis at a height of the frame."""
+    place = np.array([[*fit.values(np.array([s]))[0, :2], s]])
+    return float(cells.reference.frame.outwards(place)[0, 2])
+
+
+def towards(cells: "Cells", change: "Floats") -> float:
+    """Azimuth of a change of place or direction (2,), of the frame, in the cloud's coordinates."""
+    return float(azimuth_of(*(change @ cells.reference.frame.turn[:2, :2])))
+
+
+def chosen_of(problem: Problem, trials: Trials, unit: float) -> list[int]:
+    """Find the hinges and leaps that are certain, each beside all others."""
+    each = np.arange(trials.heights.size)
+    some = np.concatenate([each[~trials.is_leap][::SEARCHED], each[trials.is_leap][::SEARCHED]])
     chosen: list[int] = []
     while len(chosen) < FEW:
-        tried = range(0, heights.size, SEARCHED)
-        free = [i for i in tried if is_apart(heights, i, chosen, APART * unit)]
-        best, fall = best_of(problem, hinges, free, chosen)
+        best, fall = best_of(problem, trials, trials.free(some, chosen), chosen)
         if fall < WORTH:
             break
         chosen.append(best)
     for k, place in enumerate(chosen):
         others = chosen[:k] + chosen[k + 1 :]
-        near = np.flatnonzero(np.abs(heights - heights[place]) <= MENDED * unit)
-        free = [int(i) for i in near if is_apart(heights, int(i), others, APART * unit)]
-        chosen[k], _ = best_of(problem, hinges, free, others)
+        near = each[np.abs(trials.heights - trials.heights[place]) <= MENDED * unit]
+        chosen[k], _ = best_of(problem, trials, trials.free(near, others), others)
     while chosen:
         falls = [
-            best_of(problem, hinges, [i], chosen[:k] + chosen[k + 1 :])[1]
+            best_of(problem, trials, [i], chosen[:k] + chosen[k + 1 :])[1]
             for k, i in enumerate(chosen)
         ]
         if min(falls) >= CERTAIN:
             break
         del chosen[int(np.argmin(falls))]
-    found = [kink_at(cells, fit, problem, hinges, heights, chosen, k) for k in range(len(chosen))]
-    half = APART * unit / 2.0
-    ends = [heights[i] + np.array([-half, half]) for i in chosen]
-    least = [
-        max(LEAST_KINK, SUDDEN * float(np.hypot(*np.diff(fit.slopes(pair), axis=0)[0])))
-        for pair in ends
-    ]
-    return sorted(k for k, turn in zip(found, least, strict=True) if k.turn > 1e3 * turn)
-
-
-def is_apart(heights: "Floats", i: int, chosen: list[int], least: float) -> bool:
-    """Whether a height is far enough from those that are chosen."""
-    return all(abs(heights[i] - heights[j]) >= least - 1e-9 * least for j in chosen)
+    return chosen
 
 
 def best_of(
-    problem: Problem, hinges: "list[Floats]", free: list[int], chosen: list[int]
+    problem: Problem, trials: Trials, free: list[int], chosen: list[int]
 ) -> tuple[int, float]:
-    """Find which of the free hinges makes -2 log L fall most beside the chosen ones."""
+    """Find which of the free trials makes -2 log L fall most beside the chosen ones."""
     if not free:
         return -1, 0.0
-    for j in chosen:
-        problem = problem.beside(hinges[j])
-    fall = gain_of(problem, [hinges[i] for i in free]).fall
+    fall = gain_of(beside(problem, trials, chosen), [trials.columns[i] for i in free]).fall
     return free[int(np.argmax(fall))], float(fall.max())
 
 
-def kink_at(
-    cells: "Cells",
-    fit: "Fit",
-    problem: Problem,
-    hinges: "list[Floats]",
-    heights: "Floats",
-    chosen: list[int],
-    k: int,
-) -> Kink:
-    """Return a chosen kink with its size, given the others."""
-    for j in chosen[:k] + chosen[k + 1 :]:
-        problem = problem.beside(hinges[j])
-    gain = gain_of(problem, [hinges[chosen[k]]])
-    frame, s = cells.reference.frame, heights[chosen[k]]
-    z = frame.outwards(np.array([[*fit.values(np.array([s]))[0, :2], s]]))[0, 2]
-    x, y = gain.turn[0] @ frame.turn[:2, :2]
-    turn, sigma = 1e3 * float(np.hypot(x, y)), 1e3 * float(gain.sigma[0])
-    return Kink(float(z), turn, float(azimuth_of(x, y)), sigma)
+def beside(problem: Problem, trials: Trials, chosen: list[int]) -> Problem:
+    """Return the problem with what is chosen in its design."""
+    return (
+        problem.beside(np.concatenate([trials.columns[j] for j in chosen], axis=1))
+        if chosen
+        else problem
+    )
+
+
+def least_turn(fit: "Fit", s: float, unit: float) -> float:
+    """Change of direction that a kink at a height has at the least: less is a bend's."""
+    near = s + APART * unit / 2.0 * np.array([-1.0, 1.0])
+    return max(LEAST_KINK, SUDDEN * float(np.hypot(*np.diff(fit.slopes(near), axis=0)[0])))
 
 
 def problem_of(cells: "Cells", fit: "Fit", unit: float) -> Problem:
@@ -198,39 +248,44 @@ def free_of_bends(axis: "Basis", degree: int) -> "Floats":
     return (free + free.T) / 2.0
 
 
-def hinge_of(cells: "Cells", at: float) -> "Floats":
-    """Columns (n, 2) of the design for a hinge in x and in y, as the axis' own columns are."""
+def trials_at(cells: "Cells", heights: "Floats", unit: float) -> Trials:
+    """Hinges, then leaps, at heights: in x and in y, as the axis' own columns are."""
     normal, _ = normals_of(cells)
     reference, step = cells.reference, cells.reference.step
     taper = (reference.at(cells.s + step) - reference.at(cells.s - step))[:, 2] / (2.0 * step)
     lever = reference.at(cells.s)[:, 2] * taper
-    rise = np.maximum(cells.s - at, 0.0) + lever * (cells.s > at)
-    columns: Floats = normal * rise[:, None]
-    return columns
+    above = [cells.s > at for at in heights]
+    hinges = [
+        normal * ((cells.s - at + lever) * is_above)[:, None]
+        for at, is_above in zip(heights, above, strict=True)
+    ]
+    leaps = [normal * is_above[:, None] for is_above in above]
+    is_leap = np.repeat([False, True], heights.size)
+    return Trials(np.tile(heights, 2), is_leap, hinges + leaps, APART * unit)
 
 
-def gain_of(problem: Problem, hinges: "list[Floats]") -> Gain:
-    """Tell what each hinge would be good for, each model with its own best stiffness."""
+def gain_of(problem: Problem, columns: "list[Floats]") -> Gain:
+    """Tell what each hinge or leap would be good for, each model with its own best stiffness."""
     design, known, weight = problem.design, problem.known, problem.weight
     normal, right = product(design, weight, design), design.T @ (weight * known)
-    crossed = np.array([design.T @ (weight[:, None] * h) for h in hinges])  # (m, k, 2)
-    own = np.array([h.T @ (weight[:, None] * h) for h in hinges])
-    told = np.array([h.T @ (weight * known) for h in hinges])
+    crossed = np.array([design.T @ (weight[:, None] * h) for h in columns])  # (m, k, 2)
+    own = np.array([h.T @ (weight[:, None] * h) for h in columns])
+    told = np.array([h.T @ (weight * known) for h in columns])
     flat = crossed.transpose(1, 0, 2).reshape(len(right), -1)
-    plain, hinged, turns, variances = [], [], [], []
+    plain, broken, sizes, variances = [], [], [], []
     for penalty, rank in zip(problem.penalties, problem.ranks, strict=True):
         factor = factor_of(normal + penalty)
         solved = factor.solve(np.column_stack([right, flat]))
         level = factor.log_determinant - rank - float(right @ solved[:, 0])
-        pulled = solved[:, 1:].reshape(len(right), len(hinges), 2).transpose(1, 0, 2)
+        pulled = solved[:, 1:].reshape(len(right), len(columns), 2).transpose(1, 0, 2)
         left = own - crossed.transpose(0, 2, 1) @ pulled
         score = told - np.einsum("mki,k->mi", crossed, solved[:, 0])
-        turn = np.linalg.solve(left, score[:, :, None])[:, :, 0]
+        size = np.linalg.solve(left, score[:, :, None])[:, :, 0]
         plain.append(level)
-        hinged.append(level - (turn * score).sum(axis=1))
-        turns.append(turn)
+        broken.append(level - (size * score).sum(axis=1))
+        sizes.append(size)
         variances.append(np.trace(np.linalg.inv(left), axis1=1, axis2=2) / 2.0)
-    best = np.argmin(hinged, axis=0)
-    rows = np.arange(len(hinges))
-    fall = min(plain) - np.array(hinged)[best, rows]
-    return Gain(fall, np.array(turns)[best, rows], np.sqrt(np.array(variances)[best, rows]))
+    best = np.argmin(broken, axis=0)
+    rows = np.arange(len(columns))
+    fall = min(plain) - np.array(broken)[best, rows]
+    return Gain(fall, np.array(sizes)[best, rows], np.sqrt(np.array(variances)[best, rows]))
