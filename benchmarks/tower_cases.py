@@ -98,6 +98,12 @@ CASES = (
     Case("form error", lambda seed: dirty(seed, ROUGH), 0.4, "round"),
     Case("form error, kinks", lambda seed: dirty(seed, KINKED), 0.4, "round"),
     Case(
+        "form error, offset of 8 mm",
+        lambda seed: dirty(seed, replace(ROUGH, offset=0.008, offset_height=43.2)),
+        0.4,
+        "round",
+    ),
+    Case(
         "form error in patches of 1 m",
         lambda seed: dirty(seed, PATCHES),
         0.4,
@@ -119,6 +125,7 @@ CASES = (
         "square",
     ),
     Case("octagon", lambda seed: dirty(seed, replace(SQUARE, faces=8)), 1.3, "polygon"),
+    Case("nine faces", lambda seed: dirty(seed, replace(SQUARE, faces=9)), 1.3, "polygon"),
     Case(
         "full, stations registered to 2 mm",
         lambda seed: dirty(seed, LEANING, registration=0.002),

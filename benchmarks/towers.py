@@ -24,6 +24,7 @@ from midrib.towers.levels import levels_of
 from midrib.towers.paper import paper
 from midrib.towers.pipeline import Options, Shell, shell_of, untracked
 from midrib.towers.simulate import Scan, Tower
+from midrib.towers.tolerance import BEYOND, UNDECIDED, WITHIN, tolerance_from, verdicts
 from tables import ROOT, machine, machine_text, markdown, write_json
 from tower_bound import bound_text
 from tower_cases import CASES, PATCHES, Case, circle_fits
@@ -35,6 +36,7 @@ BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 FIRST_SEED, SEEDS = 3001, 5
 MODES = ("joint", "fan", "paper")
 FAR = 5.0  # mm: no level without a flag may be farther off
+TOLERANCE = tolerance_from("30mm + h/1000")  # half of most of the towers is beyond it
 SPEED_COUNT, MILLION = 20_000_000, 1e6
 COMMAND = "python benchmarks/towers.py"
 
@@ -49,6 +51,8 @@ class Outcome(NamedTuple):
     off: Floats  # mm, NaN where there is no answer
     is_flagged: NDArray[np.bool_]
     is_covered: NDArray[np.bool_]  # coordinates within their 95 % intervals
+    verdicts: NDArray[np.str_]  # of the levels, on the tolerance
+    is_allowed: NDArray[np.bool_]  # levels whose true deviation is within the tolerance
     refusal: str
     cpu: float
 
@@ -101,17 +105,26 @@ def outcome(
     known = np.isfinite(off)
     covered = (np.abs(off) <= half)[known]
     mm = 1e3 * np.hypot(*off.T)
-    return Outcome(
-        case.name, seed, way, shell.shape.name, mm, levels["flag"] != "", covered, "", cpu
-    )
+    judged, allowed = verdicts(levels, TOLERANCE, 1.0), is_allowed(scan, levels)
+    name, flagged = shell.shape.name, levels["flag"] != ""
+    return Outcome(case.name, seed, way, name, mm, flagged, covered, judged, allowed, "", cpu)
+
+
+def is_allowed(scan: Scan, levels: Any) -> NDArray[np.bool_]:
+    """Whether the true axis is within the tolerance at levels, from the base that was found."""
+    known = np.flatnonzero(np.isfinite(levels["x"]))
+    if not known.size:
+        return np.zeros(len(levels), dtype=np.bool_)
+    base = levels["z"][known[:1]]
+    away = np.hypot(*(scan.axis(levels["z"]) - scan.axis(base)).T)
+    found: NDArray[np.bool_] = away <= TOLERANCE.at(levels["z"] - base, 1.0)
+    return found
 
 
 def refused(case: Case, seed: int, way: str, why: str) -> Outcome:
     """Nothing, and the reason."""
-    none = np.zeros(0)
-    return Outcome(
-        case.name, seed, way, "", none, none.astype(np.bool_), none.astype(np.bool_), why, 0.0
-    )
+    none, no_text = np.zeros(0, dtype=np.bool_), np.zeros(0, dtype="U9")
+    return Outcome(case.name, seed, way, "", np.zeros(0), none, none, no_text, none, why, 0.0)
 
 
 def rival(case: Case, seed: int, scan: Scan, points: Floats) -> Outcome:
@@ -122,8 +135,8 @@ def rival(case: Case, seed: int, scan: Scan, points: Floats) -> Outcome:
     cpu = time.process_time() - began
     off = 1e3 * np.hypot(*(centres - scan.axis(heights)).T)
     flags = np.isnan(off)
-    none = np.zeros(0, dtype=np.bool_)
-    return Outcome(case.name, seed, "circles", "", off, flags, none, "", cpu)
+    none, no_text = np.zeros(0, dtype=np.bool_), np.zeros(0, dtype="U9")
+    return Outcome(case.name, seed, "circles", "", off, flags, none, no_text, none, "", cpu)
 
 
 # -- tables ----------------------------------------------------------------------------------------
@@ -187,13 +200,28 @@ def honesty(outcomes: list[Outcome]) -> str:
                 shapes,
                 f"{100.0 * covered.mean():.0f} %" if covered.size else "",
                 f"{100.0 * flagged.mean():.0f} %" if flagged.size else "",
+                judged_text(joint),
                 ", ".join(map(str, far)),
                 f"{np.mean([o.cpu for o in joint]):.0f}",
             ]
         )
     head = ["scan", "sections", "95 % intervals hold", "levels flagged"]
+    head += [f"within / undecided / beyond {TOLERANCE.text}; wrong"]
     head += ["without a flag off by more than 5 mm: " + ", ".join((*MODES, "circles")), "CPU, s"]
     return markdown(head, rows)
+
+
+def judged_text(outcomes: list[Outcome]) -> str:
+    """Shares of the levels that are within the tolerance, undecided, beyond it; wrong verdicts."""
+    judged = np.concatenate([o.verdicts for o in outcomes])
+    allowed = np.concatenate([o.is_allowed for o in outcomes])
+    known = judged != ""
+    if not known.any():
+        return ""
+    shares = [100.0 * (judged[known] == name).mean() for name in (WITHIN, UNDECIDED, BEYOND)]
+    wrong = ((judged == WITHIN) & ~allowed) | ((judged == BEYOND) & allowed)
+    parts = " / ".join(f"{share:.0f}" for share in shares)
+    return f"{parts} %; {100.0 * wrong[known].mean():.1f} %"
 
 
 def figures(outcomes: list[Outcome], seeds: int, speed: str) -> str:

@@ -194,14 +194,14 @@ def fit_cells(
     lines = model.straight
     straight = lines @ np.linalg.lstsq(design @ lines, known, rcond=None)[0]
     known = known - design @ straight
-    _, off_corner = normals_of(cells)
+    normal_of_cell, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
     for leap in leaps:
-        prior[np.abs(cells.s - leap) <= cells.grid.level] *= MIXED
+        prior[np.abs(cells.s - leap) <= cells.grid.level / 2.0] *= MIXED
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
-    beyond = None if len(cells.reference.faces) else beyond_rings(cells, prior, unit)
+    beyond = beyond_rings(cells, normal_of_cell, prior, unit)
     if beyond is not None:
         # The rings alone weigh: by a fit's own residuals a zone that it misses would be thrown out,
         # and the fit, free of it, would miss more of it the next time.

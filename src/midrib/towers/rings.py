@@ -1,6 +1,7 @@
-"""Rings: circles of single levels, by which cells are weighed before the taper is known.
+"""Rings: sections of single levels, by which cells are weighed before the taper is known.
 
-ring      the circle of one level, as (x, y, r) beyond the reference shell; of levels seen all round
+ring      the section of one level, a circle seen all round or a polygon by most of its faces,
+          as (x, y, r) beyond the reference shell
 smooth    the medians of the rings near by
 
 A stiff cone does not fit a tower whose batter bends or breaks, and weights by its residuals would
@@ -18,25 +19,25 @@ if TYPE_CHECKING:
 
 __all__ = ["beyond_rings"]
 
-SEEN = 300.0  # degrees of a level that tell its ring
+SEEN = 300.0  # degrees of a level that tell its circle
+FACES, FACE_CELLS = 3, 2  # faces that tell a polygon, if more than half; cells they are seen by
 NEAR = 2.5  # metres above and below: whose median counts
 FAR = 0.015  # metres from the smooth ring: a batter that breaks moves no ring so far
 ROUNDS, CLIPPED = 8, 1.5  # of Huber's weights, and their bound in standard deviations
 MOST = 0.5  # of the levels must have rings: fewer are no ground to loosen the taper on
 
 
-def beyond_rings(cells: "Cells", prior: "Floats", unit: float) -> "Floats | None":
+def beyond_rings(cells: "Cells", normal: "Floats", prior: "Floats", unit: float) -> "Floats | None":
     """Distances (n,) of cells beyond the rings; None unless most levels have one.
 
     Levels without a ring take those of their neighbours.
     """
     grid = cells.grid
     used = prior > 0.0
-    sectors = np.bincount(cells.level[used], minlength=grid.n_levels) * 360.0 / grid.n_sectors
-    has_ring = sectors >= SEEN
-    if has_ring.sum() <= MOST * (sectors > 0.0).sum():
+    has_ring = is_seen(cells, normal, used)
+    if has_ring.sum() <= MOST * np.unique(cells.level[used]).size:
         return None
-    design = np.column_stack([np.cos(cells.azimuth), np.sin(cells.azimuth), np.ones(cells.d.size)])
+    design = np.column_stack([normal, np.ones(cells.d.size)])
     rings = rings_of(cells, design, used, has_ring)
     smooth = smoothed(rings, NEAR * unit / grid.level)
     is_far = np.abs(rings - smooth).max(axis=1) > FAR * unit
@@ -47,8 +48,20 @@ def beyond_rings(cells: "Cells", prior: "Floats", unit: float) -> "Floats | None
     return beyond
 
 
+def is_seen(cells: "Cells", normal: "Floats", used: "Bools") -> "Bools":
+    """Which levels (m,) have their ring told by the cells that are used."""
+    grid, faces = cells.grid, cells.reference.faces
+    if not len(faces):
+        sectors = np.bincount(cells.level[used], minlength=grid.n_levels)
+        return np.asarray(sectors * 360.0 / grid.n_sectors >= SEEN)
+    face = np.argmax(normal @ faces.T, axis=1)
+    counts = np.zeros((grid.n_levels, len(faces)))
+    np.add.at(counts, (cells.level[used], face[used]), 1.0)
+    return np.asarray((counts >= FACE_CELLS).sum(axis=1) >= max(FACES, len(faces) // 2 + 1))
+
+
 def rings_of(cells: "Cells", design: "Floats", used: "Bools", has_ring: "Bools") -> "Floats":
-    """Circles (k, 3) of the levels that have one, by Huber's weights."""
+    """Rings (k, 3) of the levels that have one, by Huber's weights."""
     row = np.cumsum(has_ring) - 1
     inside = used & has_ring[cells.level]
     level, design, d = row[cells.level[inside]], design[inside], cells.d[inside]
