@@ -2,6 +2,7 @@
 
 python benchmarks/towers.py            table and results, seeds that development did not use
 python benchmarks/towers.py --seeds 1  so many of them
+python benchmarks/towers.py --processes 2  scans side by side: CPU time is each one's own
 python benchmarks/towers.py --speed    20 million points from a file: points per second, memory
 """
 
@@ -9,6 +10,7 @@ import argparse
 import sys
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -85,6 +87,22 @@ def runs_of(case: Case, seed: int) -> list[Outcome]:
         cpu = shared + time.process_time() - began
         found.append(outcome(case, seed, mode, scan, shell, levels, cpu))
     return [*found, rival(case, seed, scan, points)]
+
+
+def runs_of_place(place: tuple[int, int]) -> list[Outcome]:
+    """Run one scan, by number of the case and seed."""
+    return runs_of(CASES[place[0]], place[1])
+
+
+def all_runs(seeds: range, processes: int) -> list[Outcome]:
+    """Run every scan, in order of cases and seeds however many processes there are."""
+    places = [(k, seed) for k in range(len(CASES)) for seed in seeds]
+    with ProcessPoolExecutor(processes) as pool:
+        found = []
+        for place, runs in zip(places, pool.map(runs_of_place, places), strict=True):
+            found += runs
+            print(CASES[place[0]].name, place[1], file=sys.stderr, flush=True)
+    return found
 
 
 def levels_in(mode: str, shell: Shell, options: Options) -> Any:
@@ -315,17 +333,14 @@ def main() -> None:
     """Measure, print the tables, write page and results."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--speed", action="store_true", help="also 20 million points from files")
     parser.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
     chosen = parser.parse_args()
     if chosen.measure:
         measure(chosen.measure)
         return
-    outcomes = []
-    for case in CASES:
-        for seed in range(FIRST_SEED, FIRST_SEED + chosen.seeds):
-            outcomes += runs_of(case, seed)
-        print(case.name, file=sys.stderr, flush=True)
+    outcomes = all_runs(range(FIRST_SEED, FIRST_SEED + chosen.seeds), chosen.processes)
     text = PAGE.read_text(encoding="utf-8")
     head, _, rest = text.partition(BEGIN)
     old, _, tail = rest.partition(END)
