@@ -132,6 +132,14 @@ def test_half_of_the_faces_are_not_taken_for_all(faces: int) -> None:
     assert np.nanmax(offsets(axis, scan)) < 2e-3
 
 
+@pytest.mark.parametrize("mode", ["fan", "paper"])
+def test_planes_through_a_face_and_a_corner_are_refused(mode: Any) -> None:
+    """Midway between a face and the corner opposite is not the axis."""
+    scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=5, twist=20.0))
+    with pytest.raises(ParameterError, match="5 faces, none opposite another"):
+        tower_axis(scan.points(), mode)
+
+
 @pytest.mark.parametrize("faces", [7, 9, 12])
 def test_faces_taken_for_a_circle_are_flagged_with_their_number(faces: int) -> None:
     scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))

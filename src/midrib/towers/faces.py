@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from midrib.errors import ParameterError
 from midrib.towers.rough import Frame, Rough, Search, frame_along, off_shell, slabs_of
 
 if TYPE_CHECKING:
     from midrib.types import Floats, Ints
 
-__all__ = ["rough_polygon"]
+__all__ = ["check_opposite", "rough_polygon"]
 
 COUNTS = range(3, 13)  # of faces that are looked for
 STEP = 0.5  # degrees between the directions that are tried
@@ -182,3 +183,16 @@ def standing(
     h = apothem[0] + (apothem[1] - apothem[0]) * s / length
     off = off_shell(beyond, radius, LEAST_NEAR)
     return misfit, Rough(along, np.column_stack([s, 0.0 * s, 0.0 * s, h]), normals, off)
+
+
+def check_opposite(faces: "Floats") -> None:
+    """Refuse towers whose faces have none opposite.
+
+    Raises
+    ------
+    ParameterError
+        If so.
+    """
+    if len(faces) % 2:
+        msg = f"the tower has {len(faces)} faces, none opposite another: expected mode='joint'"
+        raise ParameterError(msg)

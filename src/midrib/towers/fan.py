@@ -17,8 +17,9 @@ import numpy as np
 from shapely import LineString
 
 from midrib.curves.minimal_radii import minimal_radii
-from midrib.errors import InvalidAreaError, ParameterError
+from midrib.errors import InvalidAreaError
 from midrib.strip import Strip
+from midrib.towers.faces import check_opposite
 from midrib.towers.levels import Centres
 from midrib.towers.weights import tukey
 
@@ -59,19 +60,6 @@ def fan(shell: "Shell", options: "Options") -> "tuple[Centres, dict[str, Any]]":
     centres = beside._replace(xy=beside.xy + cells.reference.at(s)[:, :2])
     sigma = np.sqrt(centres.sigma**2 + shared_variance(centres, shell.fit))
     return centres._replace(sigma=sigma), steps
-
-
-def check_opposite(faces: "Floats") -> None:
-    """Refuse towers whose faces have none opposite.
-
-    Raises
-    ------
-    ParameterError
-        If so.
-    """
-    if len(faces) % 2:
-        msg = f"the tower has {len(faces)} faces, none opposite another: expected mode='joint'"
-        raise ParameterError(msg)
 
 
 def depths_of(shell: "Shell") -> "Floats":
