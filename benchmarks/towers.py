@@ -246,7 +246,7 @@ def figures(outcomes: list[Outcome], seeds: int, speed: str) -> str:
     """Part of the page that is generated."""
     count = CASES[0].make(0).count
     return (
-        f"Made by `{COMMAND}` on {machine_text()}; {count:,} points a scan, "
+        f"Made by `{COMMAND} --seeds {seeds}` on {machine_text()}; {count:,} points a scan, "
         f"{seeds} scans a row with the seeds {FIRST_SEED} to {FIRST_SEED + seeds - 1}, which "
         f"development did not use.\n\n"
         f"Distance to the true axis, mm: RMS of the median scan / RMS of the worst scan / 95th "
