@@ -27,6 +27,26 @@ class Case(NamedTuple):
     tells_stations: bool = False
 
 
+class Parabolic(Tower):
+    """A tower whose batter is a parabola that ends upright."""
+
+    def radius(self, s: Floats) -> Floats:
+        """Radius at heights."""
+        share = 1.0 - np.asarray(s) / self.height
+        radii: Floats = self.top_radius + (self.base_radius - self.top_radius) * share**2
+        return radii
+
+
+class Broken(Tower):
+    """A tower whose batter breaks half way up."""
+
+    def radius(self, s: Floats) -> Floats:
+        """Radius at heights."""
+        heights = [0.0, self.height / 2.0, self.height]
+        radii: Floats = np.interp(s, heights, [self.base_radius, 2.3, self.top_radius])
+        return radii
+
+
 def dirty(seed: int, tower: Tower, **changes: object) -> Scan:
     """Three stations, noise of 2 to 5 mm, ladder, platforms, antennas, strays."""
     usual = Scan(
@@ -55,9 +75,34 @@ CASES = (
         0.4,
         "round",
     ),
+    Case(
+        "parabolic batter",
+        lambda seed: Scan(
+            Parabolic(100.0, 5.0, 2.0, lean=0.16, bend=0.03, seed=seed),
+            COUNT,
+            noise=(0.002, 0.005),
+            seed=seed,
+        ),
+        0.4,
+        "round",
+    ),
+    Case(
+        "broken batter",
+        lambda seed: Scan(
+            Broken(60.0, 3.1, 2.0, lean=0.1, seed=seed), COUNT, noise=(0.002, 0.004), seed=seed
+        ),
+        0.4,
+        "round",
+    ),
     Case("full", lambda seed: dirty(seed, LEANING), 0.4, "round"),
     Case("form error", lambda seed: dirty(seed, ROUGH), 0.4, "round"),
     Case("form error, kinks", lambda seed: dirty(seed, KINKED), 0.4, "round"),
+    Case(
+        "form error, offset of 8 mm",
+        lambda seed: dirty(seed, replace(ROUGH, offset=0.008, offset_height=43.2)),
+        0.4,
+        "round",
+    ),
     Case(
         "form error in patches of 1 m",
         lambda seed: dirty(seed, PATCHES),
@@ -80,6 +125,7 @@ CASES = (
         "square",
     ),
     Case("octagon", lambda seed: dirty(seed, replace(SQUARE, faces=8)), 1.3, "polygon"),
+    Case("nine faces", lambda seed: dirty(seed, replace(SQUARE, faces=9)), 1.3, "polygon"),
     Case(
         "full, stations registered to 2 mm",
         lambda seed: dirty(seed, LEANING, registration=0.002),

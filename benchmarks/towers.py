@@ -2,6 +2,7 @@
 
 python benchmarks/towers.py            table and results, seeds that development did not use
 python benchmarks/towers.py --seeds 1  so many of them
+python benchmarks/towers.py --processes 2  scans side by side: CPU time is each one's own
 python benchmarks/towers.py --speed    20 million points from a file: points per second, memory
 """
 
@@ -9,6 +10,7 @@ import argparse
 import sys
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,6 +26,7 @@ from midrib.towers.levels import levels_of
 from midrib.towers.paper import paper
 from midrib.towers.pipeline import Options, Shell, shell_of, untracked
 from midrib.towers.simulate import Scan, Tower
+from midrib.towers.tolerance import BEYOND, UNDECIDED, WITHIN, tolerance_from, verdicts
 from tables import ROOT, machine, machine_text, markdown, write_json
 from tower_bound import bound_text
 from tower_cases import CASES, PATCHES, Case, circle_fits
@@ -35,6 +38,7 @@ BEGIN, END = "<!-- figures -->", "<!-- end of figures -->"
 FIRST_SEED, SEEDS = 3001, 5
 MODES = ("joint", "fan", "paper")
 FAR = 5.0  # mm: no level without a flag may be farther off
+TOLERANCE = tolerance_from("30mm + h/1000")  # half of most of the towers is beyond it
 SPEED_COUNT, MILLION = 20_000_000, 1e6
 COMMAND = "python benchmarks/towers.py"
 
@@ -49,6 +53,8 @@ class Outcome(NamedTuple):
     off: Floats  # mm, NaN where there is no answer
     is_flagged: NDArray[np.bool_]
     is_covered: NDArray[np.bool_]  # coordinates within their 95 % intervals
+    verdicts: NDArray[np.str_]  # of the levels, on the tolerance
+    is_allowed: NDArray[np.bool_]  # levels whose true deviation is within the tolerance
     refusal: str
     cpu: float
 
@@ -83,6 +89,22 @@ def runs_of(case: Case, seed: int) -> list[Outcome]:
     return [*found, rival(case, seed, scan, points)]
 
 
+def runs_of_place(place: tuple[int, int]) -> list[Outcome]:
+    """Run one scan, by number of the case and seed."""
+    return runs_of(CASES[place[0]], place[1])
+
+
+def all_runs(seeds: range, processes: int) -> list[Outcome]:
+    """Run every scan, in order of cases and seeds however many processes there are."""
+    places = [(k, seed) for k in range(len(CASES)) for seed in seeds]
+    with ProcessPoolExecutor(processes) as pool:
+        found = []
+        for place, runs in zip(places, pool.map(runs_of_place, places), strict=True):
+            found += runs
+            print(CASES[place[0]].name, place[1], file=sys.stderr, flush=True)
+    return found
+
+
 def levels_in(mode: str, shell: Shell, options: Options) -> Any:
     """Levels of one mode."""
     if mode == "fan":
@@ -101,17 +123,26 @@ def outcome(
     known = np.isfinite(off)
     covered = (np.abs(off) <= half)[known]
     mm = 1e3 * np.hypot(*off.T)
-    return Outcome(
-        case.name, seed, way, shell.shape.name, mm, levels["flag"] != "", covered, "", cpu
-    )
+    judged, allowed = verdicts(levels, TOLERANCE, 1.0), is_allowed(scan, levels)
+    name, flagged = shell.shape.name, levels["flag"] != ""
+    return Outcome(case.name, seed, way, name, mm, flagged, covered, judged, allowed, "", cpu)
+
+
+def is_allowed(scan: Scan, levels: Any) -> NDArray[np.bool_]:
+    """Whether the true axis is within the tolerance at levels, from the base that was found."""
+    known = np.flatnonzero(np.isfinite(levels["x"]))
+    if not known.size:
+        return np.zeros(len(levels), dtype=np.bool_)
+    base = levels["z"][known[:1]]
+    away = np.hypot(*(scan.axis(levels["z"]) - scan.axis(base)).T)
+    found: NDArray[np.bool_] = away <= TOLERANCE.at(levels["z"] - base, 1.0)
+    return found
 
 
 def refused(case: Case, seed: int, way: str, why: str) -> Outcome:
     """Nothing, and the reason."""
-    none = np.zeros(0)
-    return Outcome(
-        case.name, seed, way, "", none, none.astype(np.bool_), none.astype(np.bool_), why, 0.0
-    )
+    none, no_text = np.zeros(0, dtype=np.bool_), np.zeros(0, dtype="U9")
+    return Outcome(case.name, seed, way, "", np.zeros(0), none, none, no_text, none, why, 0.0)
 
 
 def rival(case: Case, seed: int, scan: Scan, points: Floats) -> Outcome:
@@ -122,8 +153,8 @@ def rival(case: Case, seed: int, scan: Scan, points: Floats) -> Outcome:
     cpu = time.process_time() - began
     off = 1e3 * np.hypot(*(centres - scan.axis(heights)).T)
     flags = np.isnan(off)
-    none = np.zeros(0, dtype=np.bool_)
-    return Outcome(case.name, seed, "circles", "", off, flags, none, "", cpu)
+    none, no_text = np.zeros(0, dtype=np.bool_), np.zeros(0, dtype="U9")
+    return Outcome(case.name, seed, "circles", "", off, flags, none, no_text, none, "", cpu)
 
 
 # -- tables ----------------------------------------------------------------------------------------
@@ -187,20 +218,35 @@ def honesty(outcomes: list[Outcome]) -> str:
                 shapes,
                 f"{100.0 * covered.mean():.0f} %" if covered.size else "",
                 f"{100.0 * flagged.mean():.0f} %" if flagged.size else "",
+                judged_text(joint),
                 ", ".join(map(str, far)),
                 f"{np.mean([o.cpu for o in joint]):.0f}",
             ]
         )
     head = ["scan", "sections", "95 % intervals hold", "levels flagged"]
+    head += [f"within / undecided / beyond {TOLERANCE.text}; wrong"]
     head += ["without a flag off by more than 5 mm: " + ", ".join((*MODES, "circles")), "CPU, s"]
     return markdown(head, rows)
+
+
+def judged_text(outcomes: list[Outcome]) -> str:
+    """Shares of the levels that are within the tolerance, undecided, beyond it; wrong verdicts."""
+    judged = np.concatenate([o.verdicts for o in outcomes])
+    allowed = np.concatenate([o.is_allowed for o in outcomes])
+    known = judged != ""
+    if not known.any():
+        return ""
+    shares = [100.0 * (judged[known] == name).mean() for name in (WITHIN, UNDECIDED, BEYOND)]
+    wrong = ((judged == WITHIN) & ~allowed) | ((judged == BEYOND) & allowed)
+    parts = " / ".join(f"{share:.0f}" for share in shares)
+    return f"{parts} %; {100.0 * wrong[known].mean():.1f} %"
 
 
 def figures(outcomes: list[Outcome], seeds: int, speed: str) -> str:
     """Part of the page that is generated."""
     count = CASES[0].make(0).count
     return (
-        f"Made by `{COMMAND}` on {machine_text()}; {count:,} points a scan, "
+        f"Made by `{COMMAND} --seeds {seeds}` on {machine_text()}; {count:,} points a scan, "
         f"{seeds} scans a row with the seeds {FIRST_SEED} to {FIRST_SEED + seeds - 1}, which "
         f"development did not use.\n\n"
         f"Distance to the true axis, mm: RMS of the median scan / RMS of the worst scan / 95th "
@@ -215,19 +261,20 @@ def figures(outcomes: list[Outcome], seeds: int, speed: str) -> str:
 
 def speed_text(count: int) -> str:
     """Points per second and memory for one large file of each kind."""
-    rows = [speed_row(ending, count) for ending in ("npy", "las", "laz")]
+    kinds = (("npy", 1), ("las", 1), ("laz", 1), ("laz", 3))
+    rows = [speed_row(ending, stations, count) for ending, stations in kinds]
     head = ["file", "points", "CPU, s", "million points/s", "most memory, MB"]
     return f"Speed, from the file to the levels, one process:\n\n{markdown(head, rows)}"
 
 
-def speed_row(ending: str, count: int) -> list[str]:
-    """Write a file, find its axis in a process of its own, tell what that took."""
+def speed_row(ending: str, stations: int, count: int) -> list[str]:
+    """Write a file from so many stations, find its axis in a process of its own, tell the cost."""
     import json
     import subprocess
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"scan.{ending}"
-        write_scan(path, count)
+        write_scan(path, stations, count)
         done = subprocess.run(
             [sys.executable, __file__, "--measure", str(path)],
             capture_output=True,
@@ -236,10 +283,11 @@ def speed_row(ending: str, count: int) -> list[str]:
         )
     cpu, memory = json.loads(done.stdout.splitlines()[-1])
     rate = count / cpu / MILLION
-    return [f".{ending}", f"{count:,}", f"{cpu:.1f}", f"{rate:.2f}", f"{memory:.0f}"]
+    told = f", {stations} stations" if stations > 1 else ""
+    return [f".{ending}{told}", f"{count:,}", f"{cpu:.1f}", f"{rate:.2f}", f"{memory:.0f}"]
 
 
-def write_scan(path: Path, count: int) -> None:
+def write_scan(path: Path, stations: int, count: int) -> None:
     """Write a simulated scan; a million points over and over, moved by less than their noise."""
     tower = Tower(lean=0.16, bend=0.03, form_error=0.005)
     scan = Scan(tower, count=min(count, 1_000_000), noise=(0.002, 0.005), outliers=0.01, seed=5)
@@ -260,6 +308,7 @@ def write_scan(path: Path, count: int) -> None:
         for part in moved:
             record = laspy.ScaleAwarePointRecord.zeros(len(part), header=header)
             record.x, record.y, record.z = part.T
+            record.point_source_id = scan.stations % stations
             writer.write_points(record)
 
 
@@ -287,17 +336,14 @@ def main() -> None:
     """Measure, print the tables, write page and results."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--speed", action="store_true", help="also 20 million points from files")
     parser.add_argument("--measure", type=Path, help=argparse.SUPPRESS)
     chosen = parser.parse_args()
     if chosen.measure:
         measure(chosen.measure)
         return
-    outcomes = []
-    for case in CASES:
-        for seed in range(FIRST_SEED, FIRST_SEED + chosen.seeds):
-            outcomes += runs_of(case, seed)
-        print(case.name, file=sys.stderr, flush=True)
+    outcomes = all_runs(range(FIRST_SEED, FIRST_SEED + chosen.seeds), chosen.processes)
     text = PAGE.read_text(encoding="utf-8")
     head, _, rest = text.partition(BEGIN)
     old, _, tail = rest.partition(END)

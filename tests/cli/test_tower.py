@@ -2,6 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ import shapely
 from ezdxf.filemanagement import readfile
 from pyarrow import csv
 
+from midrib import tower_axis
 from midrib.formats.contents import layer_names
 from tests.cli.commands import Runner
 from tests.formats.layers import read_all
@@ -73,11 +75,28 @@ def test_flagged_levels_give_exit_code_one(midrib: Runner, tmp_path: Path) -> No
     assert "no data" in flags
 
 
+def test_planes_and_thinning_are_the_library_s(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    """What the options say is what ``tower_axis`` does with arguments of the same names."""
+    cases: list[tuple[Any, list[str], dict[str, Any]]] = [
+        ("fan", ["--planes", "4"], {"planes": 4}),
+        ("paper", ["--thinning", "average-depth"], {"thinning": "average-depth"}),
+    ]
+    for name, options, arguments in cases:
+        place = tmp_path / f"{name}.csv"
+        outcome = midrib("tower", scan, "--mode", name, *options, "-o", place, "-q")
+        assert outcome.code in {0, 1}, outcome.err
+        levels = tower_axis(scan, name, **arguments).levels
+        assert np.array(csv.read_csv(place)["x"]) == pytest.approx(levels["x"], nan_ok=True)
+        usual = tower_axis(scan, name).levels
+        assert not np.array_equal(levels["sigma"], usual["sigma"], equal_nan=True)
+
+
 WRONG = {
     "ending": (["--report", "a.txt"], "--report 'a.txt' ends in '.txt', expected .html or .pdf"),
     "tolerance": (["--tolerance", "some"], "--tolerance is 'some', expected a length (50mm)"),
     "near": (["--near", "5"], "--near is '5', expected two numbers: 1.5,3"),
     "step": (["--step", "long"], "--step is 'long', expected a number"),
+    "planes": (["--planes", "2"], "planes is 2, expected a whole number from 3 to 36"),
     "unit": (["--unit", "ells"], "--unit is 'ells', expected one of mm, cm"),
 }
 

@@ -6,10 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from midrib.figures.tower_pages import draw_deviation
 from midrib.figures.tower_paper import table_sheets
 from midrib.figures.tower_plots import shape_outline
 from midrib.figures.tower_text import Content, headings_of, notes, rows_of_levels, summary_lines
 from midrib.towers.cloud import ArrayCloud
+from midrib.towers.kinks import Kink, Offset
 from midrib.towers.pipeline import Options, axis_of
 from midrib.towers.records import TowerAxis
 from midrib.towers.simulate import Tower
@@ -109,3 +111,37 @@ def test_verdicts_do_not_depend_on_the_unit(oval: TowerAxis) -> None:
 def test_notes_tell_of_sigma_and_azimuth(oval: TowerAxis) -> None:
     text = notes(Content("a", oval, None, "a.laz", ", with levelling, 0.1 mm/m"))
     assert "with levelling, 0.1 mm/m. Azimuths are clockwise from y" in text
+
+
+def test_kinks_and_offsets_are_drawn_on_the_axis(oval: TowerAxis) -> None:
+    axis = replace(
+        oval,
+        kinks=[Kink(12.3, 2.0, 90.0, 0.1)],
+        offsets=[Offset(21.2, 0.008, 45.0, 0.0003)],
+    )
+    assert told(axis, "kinks") == "12 m (2.0 mm/m towards 90°)"
+    assert told(axis, "offsets") == "21.2 m (8.0 ± 0.3 mm towards 45°)"
+    assert told(oval, "offsets") == "none found"
+    levels = axis.levels[axis.is_answered]
+    for index, plot in enumerate(draw_deviation(axis).axes):
+        name = "xy"[index]
+        marks = {line.get_label(): line.get_xydata() for line in plot.lines}
+        for label, z in (("kink", 12.3), ("offset", 21.2)):
+            off = 1e3 * (np.interp(z, levels["z"], levels[name]) - levels[name][0])
+            assert np.asarray(marks[label]) == pytest.approx(np.array([[off, z]]))
+    assert "kink" not in {line.get_label() for line in draw_deviation(oval).axes[0].lines}
+
+
+def test_the_longest_legend_stays_on_the_paper(oval: TowerAxis) -> None:
+    axis = replace(
+        oval,
+        kinks=[Kink(12.3, 2.0, 90.0, 0.1)],
+        offsets=[Offset(21.2, 0.008, 45.0, 0.0003)],
+    )
+    figure = draw_deviation(axis, tolerance_from("40mm + h/1000"))
+    figure.canvas.draw()
+    legend = figure.axes[0].get_legend()
+    assert legend is not None
+    box = legend.get_window_extent()
+    assert box.y1 < figure.bbox.y1
+    assert box.x1 < figure.bbox.x1

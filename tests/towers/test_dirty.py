@@ -48,6 +48,21 @@ def test_sigma_is_as_large_as_the_error(length: float) -> None:
     assert 0.35 < np.mean(squares) < 2.0
 
 
+@pytest.mark.parametrize("length", [0.1, 1.0])
+def test_sigma_of_the_fan_knows_patches_that_planes_share(length: float) -> None:
+    held = []
+    for seed in range(4):
+        tower = Tower(40.0, 3.0, 2.0, lean=0.1, form_error=0.005, form_length=length, seed=seed)
+        scan = dirty(tower, seed=seed, count=100_000)
+        levels = tower_axis(scan.points(), "fan").levels
+        levels = levels[np.isfinite(levels["x"])]
+        off = np.column_stack([levels["x"], levels["y"]]) - scan.axis(levels["z"])
+        sigma = np.column_stack([levels["sigma_x"], levels["sigma_y"]])
+        held.append(np.mean(np.abs(off) <= 1.96 * sigma))
+        assert not (np.hypot(*off.T)[levels["flag"] == ""] > 5e-3).any()
+    assert 0.9 <= np.mean(held) <= 0.98
+
+
 def test_levels_that_may_be_far_off_are_flagged() -> None:
     tower = Tower(40.0, 2.5, 1.5, lean=0.1, form_error=0.012, form_length=1.0, seed=2)
     scan = dirty(tower)
@@ -98,12 +113,39 @@ def test_an_oval_is_recognised_with_its_size_and_direction() -> None:
     assert np.nanmax(offsets(axis, scan)) < 1e-3
 
 
-@pytest.mark.parametrize(("faces", "name"), [(4, "square"), (6, "polygon"), (8, "polygon")])
-def test_faces_are_recognised(faces: int, name: str) -> None:
+@pytest.mark.parametrize("faces", range(4, 13))
+def test_faces_are_recognised(faces: int) -> None:
+    name = "square" if faces == 4 else "polygon"
     scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))
     axis = tower_axis(scan.points())
     assert (axis.shape.name, axis.shape.faces) == (name, faces)
     assert np.nanmax(offsets(axis, scan)) < 2e-3
+
+
+@pytest.mark.parametrize("faces", range(5, 13))
+def test_half_of_the_faces_are_not_taken_for_all(faces: int) -> None:
+    """Every other face of an octagon is a square's, and some are seen from neither station."""
+    tower = Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=7.0)
+    scan = dirty(tower, azimuths=(0.0, 100.0), count=80_000, seed=8)
+    axis = tower_axis(scan.points())
+    assert axis.shape.faces == faces
+    assert np.nanmax(offsets(axis, scan)) < 2e-3
+
+
+@pytest.mark.parametrize("mode", ["fan", "paper"])
+def test_planes_through_a_face_and_a_corner_are_refused(mode: Any) -> None:
+    """Midway between a face and the corner opposite is not the axis."""
+    scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=5, twist=20.0))
+    with pytest.raises(ParameterError, match="5 faces, none opposite another"):
+        tower_axis(scan.points(), mode)
+
+
+@pytest.mark.parametrize("faces", [7, 9, 12])
+def test_faces_taken_for_a_circle_are_flagged_with_their_number(faces: int) -> None:
+    scan = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=faces, twist=20.0))
+    axis = tower_axis(scan.points(), shape="round")
+    assert axis.shape.problem.startswith(f"section not circular: harmonic {faces},")
+    assert (axis.levels["flag"] != "").all()
 
 
 def test_a_square_seen_from_one_side_is_refused() -> None:

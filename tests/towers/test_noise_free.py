@@ -96,3 +96,4 @@ def test_bend_and_kinks_are_followed() -> None:
     sharp = tower.kinks[0][np.hypot(*tower.kinks[1].T) > 1.2e-3]
     found = np.array([kink.z for kink in axis.kinks])
     assert all(np.abs(found - z).min() <= 1.5 for z in sharp)
+    assert axis.offsets == []

@@ -6,9 +6,10 @@ from scipy.sparse import csr_array
 
 from midrib.towers.blocks import factor_of, product
 from midrib.towers.cells import Cells, Grid, Reference
-from midrib.towers.joint import fit_cells, lost_to_weights
+from midrib.towers.joint import fit_cells
 from midrib.towers.rough import Frame
 from midrib.towers.scatter import long_wave_variance, reach_of
+from midrib.towers.weights import lost_to_weights
 from midrib.types import Floats
 
 LEVELS, SECTORS, RISE, RADIUS = 200, 72, 0.5, 3.0

@@ -5,7 +5,7 @@ from typing import Any
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import TowerMode, TowerShape
+from midrib.cli.options import TowerMode, TowerShape, TowerThinning
 
 __all__ = ["tower"]
 
@@ -16,6 +16,8 @@ def tower(
     out: cli.TowerOut = None,
     mode: cli.TowerModeOption = TowerMode.joint,
     shape: cli.TowerShapeOption = TowerShape.auto,
+    planes: cli.FanPlanes = 18,
+    thinning: cli.TowerThinningOption = TowerThinning.moving_least_squares,
     step: cli.LevelStep = None,
     near: cli.Near = None,
     radius: cli.RadiusRange = None,
@@ -41,9 +43,8 @@ def tower(
     allowed = None if tolerance is None else tolerance_from(tolerance)
     cloud = open_cloud(source)
     told = {"step": step, "near": near, "radius": radius, "registration": registration}
-    options = chosen_options(
-        cloud, unit, told, mode=mode.value, shape=shape.value, levelling=levelling
-    )
+    others = {"levelling": levelling, "planes": planes, "thinning": thinning.value}
+    options = chosen_options(cloud, unit, told, mode=mode.value, shape=shape.value, **others)
     report = Report(quiet=quiet)
     report.start(lambda: None)
 

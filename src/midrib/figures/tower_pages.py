@@ -36,7 +36,7 @@ __all__ = [
 WIDTH = 180.0
 DEVIATION_HEIGHT, PLAN_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT = 114.0, 76.0, 130.0, 115.0
 SIDE, GUTTER, FOOT, HEAD = 14.0, 16.0, 12.0, 11.0
-LEGEND_COLUMNS = 4
+LEGEND_COLUMNS = 5  # of at most nine entries: two rows
 N_SECTIONS, SECTION_COLUMNS = 6, 3
 HEIGHTS = DEVIATION_HEIGHT, PLAN_HEIGHT, SHELL_HEIGHT, SECTIONS_HEIGHT
 
@@ -75,7 +75,7 @@ def draw_deviation(
     handles, names = first.get_legend_handles_labels()
     first.legend(handles, names, loc="lower left", bbox_to_anchor=(0.0, 1.0),
                  ncols=LEGEND_COLUMNS, frameon=False, fontsize=FONT, labelcolor=TEXT,
-                 borderaxespad=0.0)  # fmt: skip
+                 borderaxespad=0.0, columnspacing=1.4, handlelength=1.6)  # fmt: skip
     return sheet.figure
 
 

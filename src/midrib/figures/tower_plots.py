@@ -24,6 +24,7 @@ GRID = "#d8dcd2"
 NORMAL = 1.96
 # Dark, middling and light, so that a print without colours tells them apart as well.
 JUDGED = {"beyond": "#a3201d", "undecided": "#f0a63c", "within": "#cfe3c4"}
+BREAKS = {"kink": 5.0, "offset": 6.5}  # points: marks, which differ in shape and size
 STRIP = 0.025  # of a plot's width: the strip of verdicts along its left side
 LABELS = 0.16  # of the plan's extent: as far apart as labels are
 WALL = 0.25  # of the radius on paper: how far the largest residuals of a section reach
@@ -67,16 +68,27 @@ def plot_deviation(
             axes.plot(sign * allowed, z, color=LIMIT, lw=0.3 / POINT, ls=(0, (4.0, 2.0)),
                       label=f"tolerance {tolerance.text}" if sign > 0 else None)  # fmt: skip
         plot_verdicts(axes, axis, tolerance)
-    if axis.kinks:
-        at = [kink.z / axis.unit for kink in axis.kinks]
-        axes.plot([1.0] * len(at), at, "<", color=LINE, ms=4.0, mew=0.0, clip_on=False,
-                  label="kink", transform=axes.get_yaxis_transform())  # fmt: skip
+    plot_breaks(axes, axis, (off, z))
     reach = axes.get_xlim()
     widest = max(abs(reach[0]), abs(reach[1]), 1.0)
     axes.set_xlim(-widest, widest)
     compass = {"x": "x (east)", "y": "y (north)"}[name]
     times = exaggeration(axes)
     finish(axes, f"deviation in {compass}, mm, {times:.0f} times exaggerated", "height, m")
+
+
+def plot_breaks(axes: "Axes", axis: "TowerAxis", chain: "tuple[Floats, Floats]") -> None:
+    """Plot on the axis, drawn as a chain of two coordinates of its levels, its kinks and offsets.
+
+    A mark is between the levels next to it, so that of an offset is in the middle of its step.
+    """
+    known = np.isfinite(chain[0]) & np.isfinite(chain[1])
+    for name, found, marker in (("kink", axis.kinks, "D"), ("offset", axis.offsets, "s")):
+        heights = np.array([one.z for one in found]) / axis.unit
+        if heights.size:
+            across, up = (np.interp(heights, height_of(axis)[known], c[known]) for c in chain)
+            axes.plot(across, up, marker, mfc="none", mec=LINE, mew=0.9, label=name,
+                      ms=BREAKS[name])  # fmt: skip
 
 
 def plot_verdicts(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance") -> None:
@@ -118,6 +130,7 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     for i in chosen:
         axes.annotate(f"{z[i]:.0f} m", (x[i], y[i]), xytext=(3, 2), textcoords="offset points",
                       fontsize=FONT - 1.5, color=TEXT)  # fmt: skip
+    plot_breaks(axes, axis, (x, y))
     axes.axhline(0.0, color=TEXT, lw=0.4)
     axes.axvline(0.0, color=TEXT, lw=0.4)
     axes.set_aspect("equal", adjustable="datalim")

@@ -60,12 +60,16 @@ def summary_lines(
 
 
 def axis_lines(axis: "TowerAxis") -> list[tuple[str, str]]:
-    """Best line, deviations, uncertainty and kinks of an axis that there is."""
+    """Best line, deviations, uncertainty, kinks and offsets of an axis that there is."""
     s, mm, m = axis.summary, 1e3 / axis.unit, 1.0 / axis.unit
     straight = f"{s.straightness * mm:.1f} mm off the best line at {s.straightness_z * m:.1f} m"
     most = f"{s.deviation * mm:.1f} mm at {s.deviation_z * m:.1f} m"
     sigma = f"{np.nanmedian(axis.levels['sigma']) * mm:.2f} mm (median of the levels)"
     kinks = [f"{k.z * m:.0f} m ({k.turn:.1f} mm/m towards {k.azimuth:.0f}°)" for k in axis.kinks]
+    offsets = [
+        f"{o.z * m:.1f} m ({o.size * mm:.1f} ± {o.sigma * mm:.1f} mm towards {o.azimuth:.0f}°)"
+        for o in axis.offsets
+    ]
     return [
         ("heights", f"{s.low * m:.2f} m to {s.high * m:.2f} m"),
         ("best line", f"leans by {s.slope:.2f} mm/m towards {s.azimuth:.1f}°"),
@@ -73,6 +77,7 @@ def axis_lines(axis: "TowerAxis") -> list[tuple[str, str]]:
         ("largest deviation", f"{most}; top {s.top_deviation * mm:.1f} mm"),
         ("sigma of the centre", sigma),
         ("kinks", ", ".join(kinks) or "none found"),
+        ("offsets", ", ".join(offsets) or "none found"),
     ]
 
 

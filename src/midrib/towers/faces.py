@@ -2,44 +2,45 @@
 
 n_j       outward normal of face j; all faces of a level are equally far from the axis
 u_j       where the points of a slab crowd along n_j: the offset of the face, n_j c + apothem
+misfit    mean distance of points from the faces, none counted as more than they may be near
 
 Faces show in a slab as directions along which many points have the same offset, whatever part
-of the tower is seen; so they are found before the centre is.
+of the tower is seen; so they are found before the centre is. Every number of faces is tried: every
+other face of an octagon is a square's, on which half of the points lie, so what counts is all of
+them.
 """
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from midrib.errors import ParameterError
 from midrib.towers.rough import Frame, Rough, Search, frame_along, off_shell, slabs_of
 
 if TYPE_CHECKING:
-    from midrib.types import Floats
+    from midrib.types import Floats, Ints
 
-__all__ = ["rough_polygon"]
+__all__ = ["check_opposite", "rough_polygon"]
 
-COUNTS = (3, 4, 5, 6, 8, 10, 12)  # of faces that are looked for
+COUNTS = range(3, 13)  # of faces that are looked for
 STEP = 0.5  # degrees between the directions that are tried
 NEAR = 0.03  # metres: as far off a face as its points may be
 LEAST_SHARE = 0.25  # of what a face seen in full would have
-AT_RANDOM = 2.0  # crowds of a face over those of a direction at random
+LEAST_FACES, LEAST_SLABS = 3, 0.3  # that tell an axis, each in as many of the slabs
 LEAST_NEAR = 0.3  # of the points of slabs: as many are near the faces
 
 
 def rough_polygon(sample: "Floats", search: Search) -> Rough | None:
     """Rough axis of a tower with faces; None if it has none."""
     frame = Frame(np.array([*np.median(sample[:, :2], axis=0), sample[:, 2].min()]), np.eye(3))
-    best: Rough | None = None
+    found: list[tuple[float, Rough]] = []
     slabs = slabs_of(frame.inwards(sample), search.unit)
     sharpness, angles = crowding(slabs, search.unit)
     for count in COUNTS:
-        turn = best_turn(sharpness, angles, count)
-        if turn is None:
-            continue
-        found = fitted(frame, slabs, normals_of(count, turn), search.unit)
-        if found is not None and (best is None or found.off < 0.8 * best.off):
-            best = found
-    return best
+        for turn in best_turns(sharpness, angles, count):
+            fit = fitted(frame, slabs, normals_of(count, turn), search.unit)
+            found += [] if fit is None else [fit]
+    return min(found, key=lambda fit: fit[0])[1] if found else None
 
 
 def normals_of(count: int, turn: float) -> "Floats":
@@ -68,23 +69,23 @@ def crowding(slabs: "list[tuple[float, Floats]]", unit: float) -> "tuple[Floats,
     return total / max(len(slabs), 1), angles
 
 
-def best_turn(sharpness: "Floats", angles: "Floats", count: int) -> float | None:
-    """Angle of the first normal for which the directions of ``count`` faces are most crowded."""
+def best_turns(sharpness: "Floats", angles: "Floats", count: int) -> list[float]:
+    """Angles of the first normal for which the directions of ``count`` faces are most crowded.
+
+    Directions do not tell a normal from its opposite, which is no normal of an odd polygon: two.
+    """
     period = np.pi / count if count % 2 else 2.0 * np.pi / count
-    cells = max(1, round(period / np.radians(STEP)))
-    phase = np.round((angles % period) / np.radians(STEP)).astype(np.intp) % cells
-    counts = np.maximum(np.bincount(phase, minlength=cells), 1)
-    folded = np.bincount(phase, weights=sharpness, minlength=cells) / counts
-    best = int(np.argmax(folded))
-    if folded[best] < AT_RANDOM * np.median(sharpness):
-        return None
-    return float(best * np.radians(STEP))
+    turns = np.arange(0.0, period, np.radians(STEP))
+    every = turns + period * np.arange(round(np.pi / period))[:, None]
+    crowd = np.interp(every, angles, sharpness, period=np.pi).mean(axis=0)
+    best = float(turns[np.argmax(crowd)])
+    return [best, best + period] if count % 2 else [best]
 
 
 def fitted(
     frame: Frame, slabs: "list[tuple[float, Floats]]", normals: "Floats", unit: float
-) -> Rough | None:
-    """Rough axis with given normals, of the frame; None if too few faces are seen."""
+) -> tuple[float, Rough] | None:
+    """Misfit and rough axis with given normals, of the frame; None if too few faces are seen."""
     rows = [
         (z, j, offset)
         for z, points in slabs
@@ -92,8 +93,7 @@ def fitted(
         if np.isfinite(offset)
     ]
     seen = np.array(rows).reshape(-1, 3)
-    usual = np.bincount(seen[:, 1].astype(np.intp), minlength=len(normals)) >= 0.3 * len(slabs)
-    if not len(seen) or usual.sum() < 3:
+    if len(seen) < 6:
         return None
     z, face, offset = seen[:, 0], seen[:, 1].astype(np.intp), seen[:, 2]
     middle, half = (z.max() + z.min()) / 2.0, max(float(np.ptp(z)) / 2.0, 1e-9)
@@ -101,15 +101,36 @@ def fitted(
     # x, y and apothem are straight in z: n_j (c + c' z) + h + h' z = u_j.
     n = normals[face]
     design = np.column_stack([n, np.ones(z.size), n * share[:, None], share])
-    weight = np.ones(z.size)
-    line = np.zeros(6)
+    weight = nearest_three(design, offset, face, len(normals), NEAR * unit)
+    line, off = np.zeros(6), offset
     for _ in range(20):
         root = np.sqrt(weight)
         line = np.linalg.lstsq(root[:, None] * design, root * offset, rcond=None)[0]
         off = np.abs(design @ line - offset)
-        spread = max(1.4826 * float(np.median(off)), 1e-3 * unit)
+        spread = max(1.4826 * float(np.median(off[weight > 0.1])), 1e-3 * unit)
         weight = np.clip(1.0 - (off / (5.0 * spread)) ** 2, 0.0, 1.0) ** 2 + 1e-9
-    return standing(frame, slabs, normals, line, (middle, half))
+    agree = np.bincount(face[off < NEAR * unit], minlength=len(normals))
+    if (agree >= LEAST_SLABS * len(slabs)).sum() < LEAST_FACES:
+        return None
+    return standing(frame, slabs, normals, line, (middle, half), NEAR * unit)
+
+
+def nearest_three(
+    design: "Floats", offset: "Floats", face: "Ints", count: int, near: float
+) -> "Floats":
+    """Weights (k,) of offsets to begin with: 1 where they agree with the best three faces.
+
+    Faces that are not seen may have crowds of others' points, half of all offsets then.
+    """
+    best = np.ones(face.size)
+    most = 0.0
+    for first in range(count):
+        rows = (face - first) % count < 3
+        line = np.linalg.lstsq(design[rows], offset[rows], rcond=None)[0]
+        agree = (np.abs(design @ line - offset) < near).astype(np.float64)
+        if agree.sum() > most:
+            best, most = agree + 1e-9, float(agree.sum())
+    return best
 
 
 def crowds_of(points: "Floats", normals: "Floats", unit: float) -> "Floats":
@@ -139,8 +160,9 @@ def standing(
     normals: "Floats",
     line: "Floats",
     span: tuple[float, float],
-) -> Rough | None:
-    """Turn a line of centres and apothems in z into a rough axis along it."""
+    near: float,
+) -> tuple[float, Rough] | None:
+    """Turn a line of centres and apothems in z into a rough axis along it, with its misfit."""
     middle, half = span
     z = np.array([middle - half, middle + half])
     share = np.array([-1.0, 1.0])
@@ -151,11 +173,26 @@ def standing(
     at = (points[:, 2] - middle) / half
     way = points[:, :2] - (line[:2] + at[:, None] * line[3:5])
     radius = np.abs(line[2] + at * line[5])
-    off = off_shell((way @ normals.T).max(axis=1) - radius, radius, LEAST_NEAR)
+    beyond = (way @ normals.T).max(axis=1) - radius
+    misfit = float(np.minimum(np.abs(beyond), near).mean())
     foot = frame.outwards(np.array([[x[0], y[0], z[0]]]))[0]
     rise = np.array([x[1] - x[0], y[1] - y[0], z[1] - z[0]])
     along = frame_along(foot, rise)
     length = float(np.linalg.norm(rise))
     s = np.linspace(0.0, length, 101)
     h = apothem[0] + (apothem[1] - apothem[0]) * s / length
-    return Rough(along, np.column_stack([s, 0.0 * s, 0.0 * s, h]), normals, off)
+    off = off_shell(beyond, radius, LEAST_NEAR)
+    return misfit, Rough(along, np.column_stack([s, 0.0 * s, 0.0 * s, h]), normals, off)
+
+
+def check_opposite(faces: "Floats") -> None:
+    """Refuse towers whose faces have none opposite.
+
+    Raises
+    ------
+    ParameterError
+        If so.
+    """
+    if len(faces) % 2:
+        msg = f"the tower has {len(faces)} faces, none opposite another: expected mode='joint'"
+        raise ParameterError(msg)

@@ -17,12 +17,14 @@ import numpy as np
 from shapely import LineString
 
 from midrib.curves.minimal_radii import minimal_radii
-from midrib.errors import InvalidAreaError, ParameterError
+from midrib.errors import InvalidAreaError
 from midrib.strip import Strip
-from midrib.towers.joint import tukey
+from midrib.towers.faces import check_opposite
 from midrib.towers.levels import Centres
+from midrib.towers.weights import tukey
 
 if TYPE_CHECKING:
+    from midrib.towers.joint import Fit
     from midrib.towers.pipeline import Options, Shell
     from midrib.types import Floats
 
@@ -54,21 +56,10 @@ def fan(shell: "Shell", options: "Options") -> "tuple[Centres, dict[str, Any]]":
             means.append(found)
     steps = {"directions": np.array(directions), "heights": s, "means": np.array(means)}
     u = steps["directions"].reshape(-1, 2)
-    centres = centres_of(s, u, steps["means"], options.unit)
-    return centres._replace(xy=centres.xy + cells.reference.at(s)[:, :2]), steps
-
-
-def check_opposite(faces: "Floats") -> None:
-    """Refuse towers whose faces have none opposite.
-
-    Raises
-    ------
-    ParameterError
-        If so.
-    """
-    if len(faces) % 2:
-        msg = f"the tower has {len(faces)} faces, none opposite another: expected mode='joint'"
-        raise ParameterError(msg)
+    beside = centres_of(s, u, steps["means"], options.unit)
+    centres = beside._replace(xy=beside.xy + cells.reference.at(s)[:, :2])
+    sigma = np.sqrt(centres.sigma**2 + shared_variance(centres, shell.fit))
+    return centres._replace(sigma=sigma), steps
 
 
 def depths_of(shell: "Shell") -> "Floats":
@@ -136,6 +127,25 @@ def centres_of(s: "Floats", directions: "Floats", means: "Floats", unit: float) 
         xy[i] = answer
         sigma[i] = np.sqrt(noise * np.diag(np.linalg.inv(normal + 1e-12 * np.eye(2))))
     return Centres(s, xy, calm(sigma), why)
+
+
+def shared_variance(centres: Centres, fit: "Fit") -> float:
+    """Variance of a coordinate of a centre by what the planes of a level err by together.
+
+    Planes through one patch of a wall are no witnesses of their own, and what all of a level err by
+    is no residual of it. But the level is that far off the joint axis, which averages over many
+    patches; what patches do to that axis comes on top. The median level tells both, so that a few
+    where the axis leaps do not count; of squared distances in a plane it is 2 log 2 variances.
+    """
+    rows = np.isfinite(centres.xy).all(axis=1)
+    if not rows.any():
+        return 0.0
+    s = centres.s[rows]
+    off = ((centres.xy[rows] - fit.values(s)[:, :2]) ** 2).sum(axis=1)
+    axis = np.trace(fit.covariances(s), axis1=1, axis2=2) / 2.0
+    alone = (centres.sigma[rows] ** 2).mean(axis=1)
+    whole = np.median(off) / (2.0 * np.log(2.0)) + np.median(axis)
+    return max(0.0, float(whole - np.median(alone)))
 
 
 def calm(sigma: "Floats") -> "Floats":

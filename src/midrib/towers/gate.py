@@ -23,11 +23,13 @@ if TYPE_CHECKING:
 __all__ = ["SEEN", "Bands", "bands_of", "lure_of_an_oval", "shape_of"]
 
 BAND, LEAST_BANDS = 5.0, 6  # metres, number: low towers have lower bands
-ORDERS = np.arange(2, 9)
+ORDERS = np.arange(2, 13)  # a dodecagon's is the last: more faces are round but for millimetres
 SEEN = 300.0  # degrees of a band that must be seen for its harmonics to be told
+WAVES = 1.35  # lengths of a harmonic that may be hidden: with more it is made of the others
 CERTAIN = 3.5  # standard deviations: a harmonic that counts,
 LEAST, LEAST_SHARE = 0.0015, 5e-4  # and is more than this: metres, share of the radius
 DENT, LEAST_DENT = 5.0, 0.008  # standard deviations, metres: one that counts in one band
+LEAST_TOLD = 3  # bands that tell a harmonic
 SQUARE = 4
 
 
@@ -35,7 +37,7 @@ class Bands(NamedTuple):
     """Harmonics of bands that are seen all round."""
 
     band: "Floats"  # (b,) numbers of the bands
-    harmonics: "Floats"  # (b, orders) complex: a - i b of a cos kθ + b sin kθ
+    harmonics: "Floats"  # (b, orders) complex: a - i b of a cos kθ + b sin kθ; NaN where untold
     height: float  # of a band
     noise: float  # standard deviation that a harmonic of one band has if cells are independent
 
@@ -44,18 +46,21 @@ def bands_of(cells: "Cells", residual: "Floats", weight: "Floats", unit: float) 
     """Harmonics of the residuals, band by band; NaN where too little is seen."""
     rise = min(round(BAND * unit / cells.grid.level), cells.grid.n_levels // LEAST_BANDS)
     rise = max(1, rise)
-    band = cells.level // rise
+    band, half = cells.level // rise, cells.grid.n_sectors // 2
     rows, numbers, noise = [], [], []
     for b in np.unique(band):
         inside = (band == b) & (weight > 0.0)
         seen = np.unique(cells.sector[inside]).size * 360.0 / cells.grid.n_sectors
         if seen < SEEN:
             continue
-        angle = cells.azimuth[inside][:, None] * np.arange(1, ORDERS[-1] + 1)
+        highest = int(min(ORDERS[-1], WAVES * 360.0 / max(360.0 - seen, 1.0), half - 1))
+        angle = cells.azimuth[inside][:, None] * np.arange(1, highest + 1)
         design = np.column_stack([np.ones(inside.sum()), np.cos(angle), np.sin(angle)])
         answer = np.linalg.lstsq(design, residual[inside], rcond=None)[0]
-        n = ORDERS[-1]
-        rows.append(answer[ORDERS] - 1j * answer[n + ORDERS])
+        row = np.full(ORDERS.size, np.nan + 0j)
+        told = np.arange(ORDERS[0], highest + 1)
+        row[: told.size] = answer[told] - 1j * answer[highest + told]
+        rows.append(row)
         numbers.append(b)
         noise.append(np.std(residual[inside] - design @ answer) * np.sqrt(2.0 / inside.sum()))
     harmonics = np.array(rows).reshape(-1, ORDERS.size)
@@ -78,18 +83,21 @@ def shape_of(
         azimuth = float(azimuth_of(faces[0, 0], faces[0, 1]))
         name = "square" if len(faces) == SQUARE else "polygon"
         return Shape(name, len(faces), azimuth, {}, ""), np.zeros(0)
-    if len(bands.band) < 3:
+    if len(bands.band) < LEAST_TOLD:
         return Shape("unknown", 0, np.nan, {}, ""), np.zeros(0)
-    middle = np.median(bands.harmonics.real, axis=0) + 1j * np.median(bands.harmonics.imag, axis=0)
-    off = bands.harmonics - middle
-    scatter = 1.4826 * np.median(np.abs(off), axis=0) / np.sqrt(2.0) + 1e-9 * unit
-    sigma = 1.2533 * scatter / np.sqrt(len(bands.band))  # of a median
-    sigma = np.hypot(sigma, bands.noise / np.sqrt(len(bands.band)))
+    count = np.isfinite(bands.harmonics.real).sum(axis=0)
+    told = bands.harmonics[:, count >= LEAST_TOLD]
+    count, orders = count[count >= LEAST_TOLD], ORDERS[count >= LEAST_TOLD]
+    middle = np.nanmedian(told.real, axis=0) + 1j * np.nanmedian(told.imag, axis=0)
+    off = told - middle
+    scatter = 1.4826 * np.nanmedian(np.abs(off), axis=0) / np.sqrt(2.0) + 1e-9 * unit
+    sigma = 1.2533 * scatter / np.sqrt(count)  # of a median
+    sigma = np.hypot(sigma, bands.noise / np.sqrt(count))
     size = np.abs(middle)
     counts = size > np.maximum(CERTAIN * sigma, max(LEAST * unit, LEAST_SHARE * radius, excused))
-    found = {int(k): (float(a), float(s)) for k, a, s in zip(ORDERS, size, sigma, strict=True)}
+    found = {int(k): (float(a), float(s)) for k, a, s in zip(orders, size, sigma, strict=True)}
     dented = (np.abs(off) > np.maximum(DENT * scatter, LEAST_DENT * unit)).any(axis=1)
-    lobes = [int(k) for k in ORDERS[counts] if k > 2]
+    lobes = [int(k) for k in orders[counts] if k > 2]
     problem = ""
     if lobes:
         worst = max(lobes, key=lambda k: found[k][0])

@@ -19,9 +19,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from midrib.towers.blocks import factor_of, product
+from midrib.towers.grazing import grazed
+from midrib.towers.rings import beyond_rings
 from midrib.towers.scatter import long_wave_variance
 from midrib.towers.smoothing import best_stiffness
 from midrib.towers.splines import Basis, basis_on
+from midrib.towers.weights import lost_to_weights, tukey
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
@@ -29,11 +32,11 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit", "fit_cells", "normals_of"]
 
-KNOTS, TAPER_KNOTS, OVAL_KNOTS = 2.5, 5.0, 20.0  # metres
-# Metres: less than that is never clutter, but bends that a clean scan shows and splines miss.
-LEAST_SPREAD = 3e-4
-TUKEY, ROUNDS, CHOOSING = 4.685, 14, (2, 5)
-GAP, GAP_HEIGHT, GRAZED = 30.0, 2.5, 10.0  # degrees, metres, degrees: see grazed
+KNOTS, OVAL_KNOTS = 2.5, 20.0  # metres: of axis and taper, of ovals
+ROUNDS, CHOOSING = 14, (2, 5)
+WEIGHED = 2  # times that a pliant curve's own residuals weigh, before they tell the variance
+MIXED = 1e-3  # weight of cells that a leap may go through
+SETTLED = 0.5  # of the pliant taper's stiffness: where the next one is no softer, it is found
 CORNER = 0.12  # of a face's angle: cells nearer to a corner than that are left out
 LEAST_ERROR = 1e-6  # metres: of a cell, where there is no noise at all
 USUAL = (1e3, 1e6)  # stiffnesses to begin with: straight lines and cones are free anyway
@@ -58,8 +61,8 @@ class Model(NamedTuple):
     @property
     def bends(self) -> tuple[int, int]:
         """Numbers of coefficients that axis stiffness and taper stiffness hold."""
-        oval = 0 if self.oval is None else 2 * (self.oval.size - 2)
-        return 2 * (self.axis.size - 2), self.taper.size - 2 + oval
+        oval = 0 if self.oval is None else 2 * (self.oval.smooth - 2)
+        return 2 * (self.axis.smooth - 2), self.taper.smooth - 2 + oval
 
     @property
     def straight(self) -> "Floats":
@@ -69,7 +72,7 @@ class Model(NamedTuple):
         starts = [0, *ends[:-1]]
         for k, basis in enumerate((self.axis, self.axis, self.taper)):
             rows = slice(starts[k], ends[k])
-            lines[rows, 2 * k], lines[rows, 2 * k + 1] = 1.0, basis.averages
+            lines[rows, 2 * k : 2 * k + 2] = basis.lines
         return lines
 
     def penalty(self, axis: float, taper: float) -> "Floats":
@@ -117,6 +120,13 @@ class Fit:
             [design @ self.coefficients[:n], design @ self.coefficients[n : 2 * n]]
         )
 
+    def leaps(self) -> "tuple[Floats, Floats]":
+        """Sizes (m, 2) of the leaps of x and y, and their standard deviations."""
+        n, m = self.model.axis.size, len(self.model.axis.leaps)
+        rows = np.array([np.arange(n - m, n), np.arange(2 * n - m, 2 * n)]).T
+        sigma = np.sqrt(np.diag(self.covariance))
+        return self.coefficients[rows], sigma[rows]
+
     def oval(self, s: "Floats") -> "Floats":
         """Coefficients e and f (n, 2) at heights; zero if the model is round."""
         if self.model.oval is None:
@@ -154,9 +164,16 @@ def normals_of(cells: "Cells") -> "tuple[Floats, Bools]":
 
 
 def fit_cells(
-    cells: "Cells", unit: float, *, is_oval: bool = False, knots: float = KNOTS, rough: bool = False
+    cells: "Cells",
+    unit: float,
+    *,
+    is_oval: bool = False,
+    leaps: "Floats | tuple[float, ...]" = (),
+    rough: bool = False,
 ) -> Fit:
     """Fit axis and taper to cells; a ``rough`` fit has the usual stiffnesses and no covariance.
+
+    At the heights ``leaps`` the axis leaps; cells that are partly below one hardly count.
 
     Notes
     -----
@@ -166,10 +183,10 @@ def fit_cells(
     what a smooth curve misses. O(n log n) for n cells, and dense solutions for the unknowns.
     """
     low, high = float(cells.s.min()), float(cells.s.max())
-    spacing = max(knots * unit, 2.0 * cells.grid.level)
+    spacing = max(KNOTS * unit, 2.0 * cells.grid.level)
     model = Model(
+        basis_on(low, high, spacing, leaps),
         basis_on(low, high, spacing),
-        basis_on(low, high, max(TAPER_KNOTS * unit, spacing)),
         basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
     )
     design, known = design_of(cells, model)
@@ -177,23 +194,29 @@ def fit_cells(
     lines = model.straight
     straight = lines @ np.linalg.lstsq(design @ lines, known, rcond=None)[0]
     known = known - design @ straight
-    _, off_corner = normals_of(cells)
+    normal_of_cell, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
+    for leap in leaps:
+        prior[np.abs(cells.s - leap) <= cells.grid.level / 2.0] *= MIXED
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
+    beyond = beyond_rings(cells, normal_of_cell, prior, unit)
+    if beyond is not None:
+        # The rings alone weigh: by a fit's own residuals a zone that it misses would be thrown out,
+        # and the fit, free of it, would miss more of it the next time.
+        weight = prior * tukey(beyond, prior > 0.0, unit)
+        variance, stiffness = chosen_by_turns(cells, design, known, model, prior, weight, unit)
     for round_ in range(ROUNDS):
         normal, right = product(design, weight, design), design.T @ (weight * known)
         inverse = factor_of(normal + variance * model.penalty(*stiffness))
         bends = inverse.solve(right)
         residual = known - design @ bends
+        if beyond is not None:
+            break
         if round_ in CHOOSING and not rough:
-            # What a pliant curve leaves is error; a stiff one leaves the tower's own bends too.
-            pliant = factor_of(normal + model.penalty(*(unit**3 * k for k in PLIANT)))
-            left = known - design @ pliant.solve(right)
-            variance = long_wave_variance(cells, design, normal, pliant, weight, left, unit)
-            variance *= lost_to_weights(residual, weight, unit) ** 2
-            variance = max(variance, (LEAST_ERROR * unit) ** 2)
+            pliant = model.penalty(*(unit**3 * k for k in PLIANT))
+            variance, _ = variance_left(cells, design, known, pliant, weight, unit)
             stiffness = best_stiffness(normal / variance, right / variance, model, unit)
         before, weight = weight, prior * tukey(residual, prior > 0.0, unit)
         if round_ > max(CHOOSING) and np.abs(weight - before).max() < 0.01:
@@ -206,45 +229,51 @@ def fit_cells(
     return Fit(model, whole, covariance, weight, residual, stiffness, bends, variance)
 
 
-def grazed(cells: "Cells", unit: float) -> "Bools":
-    """Which cells lie where beams graze the shell: next to a part that is not seen.
+def chosen_by_turns(
+    cells: "Cells",
+    design: "Any",
+    known: "Floats",
+    model: Model,
+    prior: "Floats",
+    weight: "Floats",
+    unit: float,
+) -> tuple[float, tuple[float, float]]:
+    """Long-wave variance and the likeliest stiffnesses of a batter that may bend, by turns.
 
-    There a beam is half on the shell and half behind it, and its points lie a few millimetres in.
+    A pliant taper that is too stiff leaves the batter's own bends, which count as errors; a soft
+    one follows the wall's bumps, which then do not. So it is as stiff as the likeliest, and that is
+    found by and by. The variance goes by the curve's own residuals: rings know no axis, and with
+    their weights cells beside a sharp kink, which no spline follows, would count as errors of the
+    whole wall, so that kinks drown in them.
     """
-    grid = cells.grid
-    seen = np.zeros((grid.n_levels, grid.n_sectors), dtype=np.bool_)
-    seen[cells.level, cells.sector] = True
-    rise = max(1, round(GAP_HEIGHT * unit / grid.level))
-    bands = np.add.reduceat(seen, np.arange(0, grid.n_levels, rise), axis=0) > 0
-    wide = max(1, round(GAP / 360.0 * grid.n_sectors))
-    hidden = np.all([np.roll(~bands, k, axis=1) for k in range(wide)], axis=0)
-    hidden = np.any([np.roll(hidden, -k, axis=1) for k in range(wide)], axis=0)
-    margin = max(1, round(GRAZED / 360.0 * grid.n_sectors))
-    near = np.any([np.roll(hidden, k, axis=1) for k in range(-margin, margin + 1)], axis=0)
-    # What has hidden parts everywhere is a net of few points, not a shell seen from one side.
-    near &= ~near.all(axis=1)[:, None]
-    found: Bools = near[cells.level // rise, cells.sector]
-    return found
+    normal, right = product(design, weight, design), design.T @ (weight * known)
+    axis, taper = (unit**3 * k for k in PLIANT)
+    for _ in range(ROUNDS):
+        pliant, own = model.penalty(axis, taper), weight
+        for _ in range(WEIGHED):
+            _, left = variance_left(cells, design, known, pliant, own, unit)
+            own = prior * tukey(left, prior > 0.0, unit)
+        variance, _ = variance_left(cells, design, known, pliant, own, unit)
+        stiffness = best_stiffness(normal / variance, right / variance, model, unit)
+        before, taper = taper, min(taper, variance * stiffness[1])
+        if taper > SETTLED * before:
+            break
+    return variance, stiffness
 
 
-def tukey(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
-    """Weights by the size of residuals."""
-    weight: Floats = np.clip(1.0 - shares(residual, rows, unit) ** 2, 0.0, 1.0) ** 2
-    return weight
+def variance_left(
+    cells: "Cells", design: "Any", known: "Floats", pliant: "Floats", weight: "Floats", unit: float
+) -> "tuple[float, Floats]":
+    """Long-wave variance of a cell by what a pliant curve leaves (n,), and this.
 
-
-def lost_to_weights(residual: "Floats", weight: "Floats", unit: float) -> float:
-    """How much smaller weighted errors are than what they do to the fit: mean w over mean ψ'."""
-    rows = weight > 0.0
-    square = np.clip(shares(residual, rows, unit)[rows] ** 2, 0.0, 1.0)
-    return float(weight[rows].mean() / max(((1.0 - square) * (1.0 - 5.0 * square)).mean(), 0.1))
-
-
-def shares(residual: "Floats", rows: "Bools", unit: float) -> "Floats":
-    """Residuals as shares of the smallest that has no weight."""
-    spread = max(1.4826 * float(np.median(np.abs(residual[rows]))), LEAST_SPREAD * unit)
-    share: Floats = residual / (TUKEY * spread)
-    return share
+    What it leaves is error; a stiff curve leaves the tower's own bends too.
+    """
+    normal = product(design, weight, design)
+    inverse = factor_of(normal + pliant)
+    left = known - design @ inverse.solve(design.T @ (weight * known))
+    variance = long_wave_variance(cells, design, normal, inverse, weight, left, unit)
+    variance *= lost_to_weights(left, weight, unit) ** 2
+    return max(variance, (LEAST_ERROR * unit) ** 2), left
 
 
 def design_of(cells: "Cells", model: Model) -> "tuple[Any, Floats]":

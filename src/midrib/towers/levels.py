@@ -193,6 +193,7 @@ def flags_of(
         in_dent |= (s >= low) & (s < high)
     # A hollow tower's faces may be hidden in part; only of round shells does the arc matter.
     is_round = not len(shell.cells.reference.faces)
+    reach = max(shell.cells.grid.level, float(np.diff(s).max(initial=0.0))) * (1.0 + 1e-9)
     apart = np.full(s.size, shell.labels > 0 and not shell.stations and not told)
 
     def mark(rows: "Bools", text: Any) -> None:
@@ -218,6 +219,10 @@ def flags_of(
     mark(answered & is_round & (seen.near < SEEN), "radius from taper prior")
     mark(answered & apart, "stations not put together")
     mark(answered & in_dent, "dented, or partly hidden")
+    # Cells of the level at which the axis leaps are partly below it and partly above.
+    for leap, offset in zip(shell.fit.model.axis.leaps, shell.fit.leaps()[0], strict=True):
+        size = 1e3 * float(np.hypot(*offset)) / shell.unit
+        mark(answered & (np.abs(s - leap) <= reach), f"offset of {size:.1f} mm near by")
     mark(answered & (levels["residual"] > ROUGH * usual), "rough")
     return flags
 

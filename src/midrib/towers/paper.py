@@ -17,6 +17,7 @@ from shapely import LineString
 from midrib.curves.minimal_radii import minimal_radii
 from midrib.errors import InvalidAreaError
 from midrib.strip import Strip
+from midrib.towers.faces import check_opposite
 from midrib.towers.levels import Centres
 from midrib.towers.thinning import thinned_wall
 
@@ -54,6 +55,7 @@ class PlaneSteps(NamedTuple):
 def paper(shell: "Shell", options: "Options", track: "Track") -> "tuple[Centres, dict[str, Any]]":
     """Centres of levels from two planes, and the steps: ``"planes"``, a list of two."""
     unit = options.unit
+    check_opposite(shell.cells.reference.faces)
     directions = directions_of(shell.cells.reference.faces)
     half = half_slab(shell, unit)
     walls = collected(track(shell.cloud.chunks(), "sections"), shell, directions, half, unit)

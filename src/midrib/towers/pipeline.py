@@ -18,7 +18,7 @@ from midrib.towers.cloud import Cloud, Tally, check_spacing, sample_of
 from midrib.towers.faces import rough_polygon
 from midrib.towers.gate import bands_of, shape_of
 from midrib.towers.joint import Fit, fit_cells
-from midrib.towers.kinks import kinks_of
+from midrib.towers.kinks import Kink, breaks_of, offsets_of
 from midrib.towers.levels import levels_of
 from midrib.towers.records import Shape, TowerAxis
 from midrib.towers.rough import Rough, Search, rough_round
@@ -107,6 +107,7 @@ class Shell(NamedTuple):
     fit: Fit
     shape: Shape
     dents: "Floats"  # heights (k, 2) of bands with a dent, of the frame
+    kinks: list[Kink]
     unit: float  # coordinate units in a metre
     cloud: Cloud  # its stations put together
     stations: list[Station]  # those that could be told apart
@@ -153,7 +154,8 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         stations=shell.stations,
         unusable=shell.unusable,
         labels=shell.labels,
-        kinks=kinks_of(shell.cells, fit, options.unit),
+        kinks=shell.kinks,
+        offsets=offsets_of(shell.cells, fit),
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,
@@ -270,15 +272,19 @@ def refined(reference: Reference, fit: Fit) -> Reference:
 
 def gated(
     cells: Cells, fit: Fit, options: Options, *, told_apart: bool
-) -> "tuple[Cells, Fit, Shape, Floats]":
-    """Look at the shape of the sections; an oval is fitted anew with its own terms."""
+) -> "tuple[Cells, Fit, Shape, Floats, list[Kink]]":
+    """Look at the shape of the sections and at breaks; ovals and leaps are fitted anew."""
     unit = options.unit
     bands = bands_of(cells, fit.residual, fit.weight, unit)
     radius = float(np.median(cells.reference.table[:, 2]))
     # Stations that do not fit together make lobes of about their own shifts.
     excused = 0.0 if told_apart else EXCUSED * options.registration
     shape, dents = shape_of(bands, cells.reference.faces, radius, unit, excused)
-    if shape.name == "oval":
+    is_oval = shape.name == "oval"
+    if is_oval:
         fit = fit_cells(cells, unit, is_oval=True)
+    breaks = breaks_of(cells, fit, unit)
+    if breaks.leaps.size:
+        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=breaks.leaps)
     low = cells.grid.start + dents * bands.height
-    return cells, fit, shape, np.column_stack([low, low + bands.height])
+    return cells, fit, shape, np.column_stack([low, low + bands.height]), breaks.kinks

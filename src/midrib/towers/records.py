@@ -12,7 +12,7 @@ from midrib.towers.summary import Summary, summary_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
-    from midrib.towers.kinks import Kink
+    from midrib.towers.kinks import Kink, Offset
     from midrib.towers.stations import Station
     from midrib.types import Bools, Floats
 
@@ -78,6 +78,9 @@ class TowerAxis:
     kinks : list of Kink
         Where the axis changes its direction, for certain and suddenly: by the joint fit's cells,
         whatever the mode.
+    offsets : list of Offset
+        Where it leaps, in the same way: a step between two casting lifts, say. The joint mode's
+        axis leaps there too.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -94,6 +97,7 @@ class TowerAxis:
     unusable: int = 0
     labels: int = 0
     kinks: "list[Kink]" = field(default_factory=list)
+    offsets: "list[Offset]" = field(default_factory=list)
 
     @property
     def is_answered(self) -> "Bools":

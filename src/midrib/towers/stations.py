@@ -21,7 +21,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from midrib.towers.cells import Cells, Cube, Grid, Reference
-from midrib.towers.joint import normals_of, tukey
+from midrib.towers.joint import normals_of
+from midrib.towers.weights import tukey
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

@@ -1,7 +1,7 @@
 """Towers whose axis is known: what `simulate` scans.
 
 s          height along the unbent axis, from 0 at the base to the tower's height
-c(s)       the axis: lean + bend + kinks, in the horizontal plane
+c(s)       the axis: lean + bend + kinks + offset, in the horizontal plane
 t(s)       its direction; a section is perpendicular to it, as a built tower's is
 theta      azimuth in the section, anticlockwise from x
 R(s, θ)    distance from the axis to the shell: radius, oval, polygon, form error
@@ -42,6 +42,8 @@ class Tower:
         Amplitude of an S-shaped bend that is zero at base and top and grows upwards.
     kink, kink_spacing : float
         Largest change of direction (mm per m) of a kink, and the heights between kinks.
+    offset, offset_height : float
+        A step of the axis, across the lean, and the height at which it is, as between two lifts.
     oval : float
         Amplitude of cos 2θ in the radius, everywhere the same.
     faces : int
@@ -67,6 +69,8 @@ class Tower:
     bend: float = 0.0
     kink: float = 0.0
     kink_spacing: float = 10.0
+    offset: float = 0.0
+    offset_height: float = 0.0
     oval: float = 0.0
     faces: int = 0
     twist: float = 0.0
@@ -92,7 +96,14 @@ class Tower:
 
     def axis(self, s: "Floats | list[float]") -> "Floats":
         """Points (n, 2) of the axis at heights."""
-        s = np.asarray(s, dtype=np.float64)
+        s, angle = np.asarray(s, dtype=np.float64), np.radians(self.lean_azimuth)
+        step = self.offset * (s > self.offset_height)
+        across = np.array([-np.sin(angle), np.cos(angle)])
+        found: Floats = self.unbroken(s) + step[:, None] * across
+        return found
+
+    def unbroken(self, s: "Floats") -> "Floats":
+        """Points (n, 2) of the axis without its offset: what has a direction everywhere."""
         share = s / self.height
         angle = np.radians(self.lean_azimuth)
         x = self.lean * share * np.cos(angle)
@@ -164,7 +175,7 @@ class Tower:
     def frames(self, s: "Floats") -> "tuple[Floats, Floats, Floats]":
         """Axis points (n, 3) and two directions (n, 3) that span the section there."""
         half = 1e-4 * self.height
-        slope = (self.axis(s + half) - self.axis(s - half)) / (2.0 * half)
+        slope = (self.unbroken(s + half) - self.unbroken(s - half)) / (2.0 * half)
         t = np.column_stack([slope, np.ones(s.size)])
         t /= np.linalg.norm(t, axis=1)[:, None]
         across = np.array([1.0, 0.0, 0.0]) - t * t[:, :1]

@@ -18,6 +18,7 @@ from midrib.cli.options.choices import (
     StartSide,
     TowerMode,
     TowerShape,
+    TowerThinning,
     WidthPlace,
     chosen,
 )
@@ -129,6 +130,7 @@ from midrib.cli.options.strokes import (
 )
 from midrib.cli.options.towers import (
     CloudUnit,
+    FanPlanes,
     Levelling,
     LevelStep,
     Near,
@@ -136,6 +138,7 @@ from midrib.cli.options.towers import (
     Registration,
     TowerModeOption,
     TowerShapeOption,
+    TowerThinningOption,
     Verticality,
 )
 
@@ -161,6 +164,7 @@ __all__ = [
     "EngineOption",
     "Exclude",
     "Factor",
+    "FanPlanes",
     "FindingsFigure",
     "FindingsOut",
     "First",
@@ -254,6 +258,8 @@ __all__ = [
     "TowerReport",
     "TowerShape",
     "TowerShapeOption",
+    "TowerThinning",
+    "TowerThinningOption",
     "Verticality",
     "Vertices",
     "Width",

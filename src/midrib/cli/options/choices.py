@@ -16,6 +16,7 @@ __all__ = [
     "StartSide",
     "TowerMode",
     "TowerShape",
+    "TowerThinning",
     "WidthPlace",
     "chosen",
 ]
@@ -136,6 +137,13 @@ class TowerMode(StrEnum):
     joint = "joint"
     fan = "fan"
     paper = "paper"
+
+
+class TowerThinning(StrEnum):
+    """Ways to thin the walls of a section to curves."""
+
+    moving_least_squares = "moving-least-squares"
+    average_depth = "average-depth"
 
 
 class TowerShape(StrEnum):

@@ -2,11 +2,12 @@
 
 from typing import Annotated, TypeAlias
 
-from midrib.cli.options.choices import TowerMode, TowerShape
+from midrib.cli.options.choices import TowerMode, TowerShape, TowerThinning
 from midrib.cli.options.panels import of_tower
 
 __all__ = [
     "CloudUnit",
+    "FanPlanes",
     "LevelStep",
     "Levelling",
     "Near",
@@ -14,6 +15,7 @@ __all__ = [
     "Registration",
     "TowerModeOption",
     "TowerShapeOption",
+    "TowerThinningOption",
     "Verticality",
 ]
 
@@ -21,13 +23,25 @@ TowerModeOption: TypeAlias = Annotated[
     TowerMode,
     of_tower(
         "--mode",
-        help="joint: one spline cone through the whole shell; fan: curves of minimal radii in 18 "
+        help="joint: one spline cone through the whole shell; fan: curves of minimal radii in many "
         "planes through the axis; paper: in two planes.",
     ),
 ]
 TowerShapeOption: TypeAlias = Annotated[
     TowerShape,
     of_tower("--shape", help="What sections are taken for; auto looks what explains the points."),
+]
+FanPlanes: TypeAlias = Annotated[
+    int,
+    of_tower("--planes", metavar="NUMBER", help="Planes of --mode fan, 3 to 36."),
+]
+TowerThinningOption: TypeAlias = Annotated[
+    TowerThinning,
+    of_tower(
+        "--thinning",
+        help="How walls become curves in --mode paper: local lines, or means of points within 1 cm "
+        "of each other.",
+    ),
 ]
 LevelStep: TypeAlias = Annotated[
     str | None,
