@@ -57,6 +57,7 @@ class Triangulated(NamedTuple):
     side_of_segment: Ints
     vertex_of: Ints
     touches: Ints
+    is_valid: bool  # rings are apart, simple and within each other as those of a valid area are
 
 
 @njit(borrows=True)
@@ -86,10 +87,10 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
     ``side_of_segment[k]`` is the boundary side on ring segment k, ``vertex_of[k]`` the mesh vertex
     of ring vertex k (rings that touch share one), ``touches[k]`` a vertex inside segment k or -1.
     """
-    status, tri, twin, side_of_segment, same, touches = triangulate_rings(x, y, ring_next)
+    status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(x, y, ring_next)
     door, other_door = doors(x.size, tri, twin)
     return Triangulated(
-        status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches
+        status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches, is_valid
     )
 
 

@@ -16,6 +16,7 @@ __all__ = [
     "LARGEST",
     "SMALLEST",
     "Rings",
+    "count_rings",
     "find_rings",
     "normalise_rings",
     "sizes",
@@ -124,6 +125,16 @@ def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
             at -= 1
         order[at] = ring
     return order
+
+
+@njit(borrows=True)
+def count_rings(rings: Rings) -> int:
+    """How many rings are left."""
+    count = 0
+    for k in range(rings.ring_next.size):
+        if rings.ring_next[k] <= k:
+            count += 1
+    return count
 
 
 @njit(entry=True)

@@ -527,11 +527,12 @@ def insert_segments(
 @njit()
 def keep_inside(
     count: int, n_segments: int, tri: Places, twin: Places, segment: Places
-) -> tuple[Ints, Ints, Ints]:
+) -> tuple[Ints, Ints, Ints, bool]:
     """Keep the triangles that can be reached from the left of a segment without crossing one.
 
     Return tri and twin of the kept triangles and the half-edge of each segment; sides
-    on a segment have no twin any more.
+    on a segment have no twin any more. And whether nothing on the right of a segment is kept, nor
+    a corner of the outer triangle: then every hole is in the shell and in no other hole.
     """
     count = place(count)
     row, stack = np.full(count, -1, np.int32), np.empty(count, np.uint32)
@@ -552,23 +553,24 @@ def keep_inside(
                     row[t], stack[kept] = kept, t
                     kept += 1
     new_tri, new_twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
-    side_of_segment = np.full(n_segments, -1, np.intp)
+    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
     for i in range(kept):
         e, new = 3 * place(stack[i]), 3 * place(i)
         for side in range(3):
-            new_tri[new + side] = tri[e + side]
+            new_tri[new + side] = v = tri[e + side]
             on, f = segment[e + side], twin[e + side]
+            is_one_sided = is_one_sided and on != BLOCKED and v < n_segments
             if on >= 0:
                 side_of_segment[on] = new + side
             is_open = on == FREE and f >= 0
             new_twin[new + side] = 3 * row[place(f) // 3] + place(f) % 3 if is_open else -1
-    return new_tri, new_twin, side_of_segment
+    return new_tri, new_twin, side_of_segment, is_one_sided
 
 
 @njit(entry=True)
 def triangulate_rings(
     x: Floats, y: Floats, ring_next: Ints
-) -> tuple[int, Ints, Ints, Ints, Ints, Ints]:
+) -> tuple[int, Ints, Ints, Ints, Ints, Ints, bool]:
     """Triangulate what lies to the left of the rings.
 
     Parameters
@@ -584,6 +586,9 @@ def triangulate_rings(
     same : (n,) the first vertex with the same coordinates
     touches : (n,) a vertex that lies inside segment k, or -1. Where there is one, nothing else
         is valid: insert it into the ring and call again
+    is_valid : whether the rings are those of a valid area, with none that touch. They are simple
+        and apart, as each segment is a side of triangles that do not overlap, and holes are in the
+        shell only. False may be valid too
 
     Notes
     -----
@@ -601,17 +606,20 @@ def triangulate_rings(
     all_x[n + 2], all_y[n + 2] = middle_x, middle_y + 2.0 * far
     size = 3 * (2 * n + 1)
     if size > FURTHEST:
-        return -1, nothing, nothing, nothing, same, touches
+        return -1, nothing, nothing, nothing, same, touches, False
     tri, twin = np.empty(size, np.uint32), np.full(size, -1, np.int32)
     segment, out = np.full(size, FREE, np.int32), np.zeros(n + 3, np.uint32)
     count = insert_all(n, all_x, all_y, tri, twin, out, same)
     if count < 0:
-        return -1, nothing, nothing, nothing, same, touches
+        return -1, nothing, nothing, nothing, same, touches, False
     status = insert_segments(ring_next, same, touches, all_x, all_y, tri, twin, segment, out)
     is_touched = False
     for k in range(n):
         is_touched = is_touched or touches[k] >= 0
     if status != 0 or is_touched:
-        return status, nothing, nothing, nothing, same, touches
+        return status, nothing, nothing, nothing, same, touches, False
     kept = keep_inside(count, n, tri, twin, segment)
-    return 0, kept[0], kept[1], kept[2], same, touches
+    is_valid = kept[3]
+    for k in range(n):
+        is_valid = is_valid and same[k] == k
+    return 0, kept[0], kept[1], kept[2], same, touches, is_valid
