@@ -52,7 +52,7 @@ class End:
 def lay_out_proposed(rings: Rings, height: Floats | None, scale: Scale) -> Layout:
     """Divide an area at the two ends that its shape proposes."""
     known = NO_HEIGHT if height is None else height[rings.origin]
-    divided = lay_out_rings(rings, known, *scale)
+    divided = lay_out_rings(rings, known, True, *scale)
     if divided.is_divided:
         return layout_of(divided, scale)
     boundary = boundary_of(rings, height)

@@ -8,11 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 from shapely import MultiPolygon, Polygon, box
 
 import midrib
 from midrib.curves import usual
 from midrib.errors import ParameterError
+from midrib.ragged import pack_rings
+from midrib.strip import PLANE
 from tests.shapes import annulus_sector, stadium, wavy_ribbon, wedge
 
 POLE = 100.0
@@ -75,6 +79,70 @@ def test_problems_come_in_order(monkeypatch: pytest.MonkeyPatch) -> None:
     lines, problems = midrib.collapse([flat, box(0, 0, 5, 1), flat], on_error="report", threads=2)
     assert [line is None for line in lines] == [True, False, True]
     assert [problem.index for problem in problems] == [0, 2]
+
+
+SHELL = [(0.0, 0.0), (20.0, 0.0), (20.0, 6.0), (0.0, 6.0)]
+HOLE = [(4.0, 2.0), (7.0, 2.0), (7.0, 4.0), (4.0, 4.0)]
+INVALID = {
+    "bow-tie": ([(0, 0), (8, 6), (8, 0), (0, 6)], []),
+    "spike": ([*SHELL, (0, 6), (-3, 6), (0, 6)], []),
+    "pinched": ([(0, 0), (9, 0), (5, 3), (9, 6), (0, 6), (5, 3)], []),
+    "hole in a hole": (SHELL, [HOLE, [(5, 2.5), (6, 2.5), (6, 3)]]),
+    "hole around a hole": (SHELL, [HOLE, [(3, 1), (8, 1), (8, 5), (3, 5)]]),
+    "hole outside": (SHELL, [[(4, 7), (7, 7), (7, 9)]]),
+    "hole around the shell": (HOLE, [SHELL]),
+    "hole twice": (SHELL, [HOLE, HOLE]),
+    "hole like the shell": (SHELL, [SHELL]),
+    "hole across the shell": (SHELL, [[(4, 4), (7, 4), (7, 9), (4, 9)]]),
+    "hole of two points": (SHELL, [[(4, 2), (7, 2), (7, 2)]]),
+    "hole of one point": (SHELL, [[(4, 2), (4, 2), (4, 2)]]),
+    "no number": ([*SHELL, (np.nan, 3)], []),
+    "infinite": ([*SHELL, (-np.inf, 3)], []),
+}
+
+
+def is_shown_valid(area: Polygon) -> bool:
+    """Whether the kernel itself finds an area valid."""
+    return usual.usual_line(*pack_rings(area), PLANE, is_known=False) is not None
+
+
+@pytest.mark.filterwarnings("ignore:invalid value encountered")  # of what is no number
+@pytest.mark.parametrize("name", INVALID)
+def test_triangles_show_no_invalid_area_to_be_valid(name: str) -> None:
+    area = Polygon(*INVALID[name])
+    assert not shapely.is_valid(area)
+    assert not is_shown_valid(area)
+    assert usual.line_of_one(area) is None
+
+
+@pytest.mark.parametrize("holes", [[], [HOLE], [HOLE, [(9, 2), (9, 4), (11, 3)]]])
+def test_triangles_show_that_areas_are_valid(
+    holes: list[list[tuple[float, float]]], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(usual, "is_valid_one", lambda _: False)
+    area = Polygon(SHELL, holes)
+    for turned in (area, shapely.reverse(area), shapely.normalize(area)):
+        assert usual.line_of_one(turned) is not None
+
+
+corners = st.tuples(st.integers(0, 5), st.integers(0, 5))
+
+
+@given(
+    shell=st.lists(corners, min_size=3, max_size=7),
+    holes=st.lists(st.lists(corners, min_size=3, max_size=4), max_size=2),
+)
+def test_areas_that_triangles_show_to_be_valid_are(
+    shell: list[tuple[int, int]], holes: list[list[tuple[int, int]]]
+) -> None:
+    area = Polygon(shell, holes)
+    assert shapely.is_valid(area) or not is_shown_valid(area)
+
+
+def test_rings_that_touch_are_asked_about() -> None:
+    area = Polygon(SHELL, [HOLE, [(7.0, 2.0), (9.0, 2.0), (9.0, 3.0)]])
+    assert not is_shown_valid(area)
+    assert usual.line_of_one(area) is not None
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "two"])

@@ -9,13 +9,15 @@ from shapely import LineString, Point
 
 from midrib.kernels.banks import MANY, Bank, Banks, look_beside
 from midrib.kernels.boxtree import DEPTH, box_tree
-from midrib.kernels.probes import is_between_lines
+from midrib.kernels.glide import Ends
+from midrib.kernels.probes import is_between_lines, worst_probe
 from tests.kernels.calling import callable_from_python
 
 Floats = NDArray[np.float64]
 TOLERANCE = 1e-3
 boxes_of, beside = callable_from_python(box_tree), callable_from_python(look_beside)
 between_lines = callable_from_python(is_between_lines)
+worst = callable_from_python(worst_probe)
 line_of = st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=4, max_size=12)
 
 
@@ -67,6 +69,18 @@ def test_any_other_way_is_probed(
 def test_exact_lines_are_probed_everywhere() -> None:
     at = np.array([1, 1])
     assert not between_lines(wedge(), at, at, 3.0, 0.0, 7.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize("bump", [1.0, 3.5, 6.0, 8.0, 10.0, 12.5, 15.0])
+def test_worst_probe_is_at_the_bump_wherever_it_is(bump: float) -> None:
+    main = np.array([(0.0, -1.0), (16.0, -1.0)])
+    auxiliary = np.array([(0.0, 1.0), (bump - 1, 1.0), (bump, 0.4), (bump + 1, 1.0), (17.0, 1.0)])
+    nowhere = Ends(False, *[0.0] * 8)
+    at, lean = worst(banks_of(main, auxiliary), nowhere, 0.0, 0.0, 16.0, 0.0, TOLERANCE)
+    assert 16.0 * at == pytest.approx(bump, abs=0.5)
+    assert lean.value > 0.0
+    flat = banks_of(main, main * [1.0, -1.0])
+    assert worst(flat, nowhere, 0.0, 0.0, 16.0, 0.0, TOLERANCE)[0] == -1.0
 
 
 @given(points=line_of, px=st.floats(-3.0, 12.0), py=st.floats(-3.0, 12.0))

@@ -65,32 +65,43 @@ def line_of_one(area: Polygon) -> LineString | None:
     """Return the line of one area, None if there is anything to look at more closely or to say.
 
     What many areas need (a log, parts, labels, threads) takes longer than the line of a hundred
-    vertices. Interrupts need not be deferred: ``collapse_many`` is handed plain arrays and numbers
-    and gives back a single array, see there.
+    vertices. So does the question whether an area is valid, which its triangles answer on the way
+    unless rings touch. Interrupts need not be deferred: ``collapse_many`` is handed plain arrays
+    and numbers and gives back a single array, see there.
     """
-    if area.is_empty or area.has_z or not is_valid_one(area):
+    if area.is_empty or area.has_z:
         return None
-    found = usual_line(*pack_rings(area), PLANE)
+    coordinates, offsets = pack_rings(area)
+    found = usual_line(coordinates, offsets, PLANE, is_known=False)
+    if found is None and is_valid_one(area):
+        found = usual_line(coordinates, offsets, PLANE)
     if found is None or found.loops:
         return None
     line: LineString = shapely.linestrings(found.points)
     return line
 
 
-def usual_line(coordinates: "Floats", offsets: "Ints", scale: "Scale") -> Found | None:
-    """Return the line of one area, None if the single steps are to be taken."""
+def usual_line(
+    coordinates: "Floats", offsets: "Ints", scale: "Scale", *, is_known: bool = True
+) -> Found | None:
+    """Return the line of one area, None if the single steps are to be taken.
+
+    Or if it is not known to be valid and is not shown to be.
+    """
     whole = np.array([0, offsets.size - 1], np.intp)
     scales = np.array([scale], np.float64)
     packed = Packed(coordinates, offsets, whole, NO_Z)
-    points, _, loops = lines_of_run(packed, (0, 1), scales)
+    points, _, loops = lines_of_run(packed, (0, 1), scales, is_known=is_known)
     return None if loops[0] == UNDONE else Found(points, None, int(loops[0]))
 
 
-def lines_of_run(packed: Packed, run: tuple[int, int], scales: "Floats") -> Lines:
+def lines_of_run(
+    packed: Packed, run: tuple[int, int], scales: "Floats", *, is_known: bool = True
+) -> Lines:
     """Lines of the areas of one run."""
     n = run[1] - run[0]
     offsets, loops = np.empty(n + 1, np.intp), np.empty(n, np.intp)
-    points = collapse_many(*packed[:3], *run, CENTRED_WITHIN, scales, offsets, loops)
+    points = collapse_many(*packed[:3], *run, is_known, CENTRED_WITHIN, scales, offsets, loops)
     return Lines(points, offsets, loops)
 
 

@@ -137,13 +137,16 @@ def banks_of(
     largest = 0.0
     for v in range(mesh.x.size):
         largest = max(largest, abs(mesh.x[v]) * scale_x, abs(mesh.y[v]) * scale_y)
+    is_windowed = loops.is_main.size == 0
+    for e in auxiliary.side:
+        is_windowed = is_windowed and e >= 0
     return Banks(
         bank_of(mesh, main, loops, True, scale_x, scale_y),
         bank_of(mesh, auxiliary, loops, False, scale_x, scale_y),
         max(slack, TIE_OF_COORDINATE * largest),
         np.zeros(2, np.intp),
         np.array([[0, MANY], [0, MANY]]),
-        loops.is_main.size == 0 and auxiliary.side.min() >= 0,
+        is_windowed,
         np.empty(DEPTH, np.intp),
     )
 

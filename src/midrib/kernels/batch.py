@@ -27,6 +27,7 @@ def collapse_many(
     area_offsets: Ints,
     first: int,
     last: int,
+    is_known: bool,
     share: float,
     scales: Floats,
     offsets: Ints,
@@ -38,6 +39,7 @@ def collapse_many(
     ----------
     coordinates, ring_offsets, area_offsets : polygons as drawn above
     first, last : which of them
+    is_known : whether they are known to be valid; those that may not be are left out otherwise
     share : tolerance, as a share of the mean width
     scales : (n, 2) lengths of one unit of x and of y in each area; NaN where none is wanted
     offsets : filled; where the points of each line begin, and where those of the last one end
@@ -64,7 +66,7 @@ def collapse_many(
         offsets[i + 1], loops[i] = used, UNDONE
         if not np.isfinite(scale_x * scale_y):
             continue
-        done, line, lost = collapse_rings(rows, rings, share, scale_x, scale_y)
+        done, line, lost = collapse_rings(rows, rings, is_known, share, scale_x, scale_y)
         if done and is_finite(line):
             size = line.shape[0]
             if used + size > points.shape[0]:

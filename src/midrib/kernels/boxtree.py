@@ -14,6 +14,7 @@ What the nearest point is does not depend on what can be seen: see ``visibility`
 import numpy as np
 
 from midrib.kernels.jit import njit
+from midrib.kernels.places import place
 from midrib.types import Floats, Ints
 
 __all__ = ["FOOT", "GRAZE", "LIMIT", "VERTEX", "box_tree", "nearest_on_chain", "nearest_share"]
@@ -113,18 +114,19 @@ def nearest_on_chain(
     stack[0] = 1
     while depth > 0:
         depth -= 1
-        node = stack[depth]
+        node = place(stack[place(depth)])
         if squared_distance_to_box(px, py, boxes, node) > bound:
             continue
         if node < leaves:
             left = squared_distance_to_box(px, py, boxes, 2 * node)
             right = squared_distance_to_box(px, py, boxes, 2 * node + 1)
             nearer = 2 * node if left <= right else 2 * node + 1
-            stack[depth], stack[depth + 1] = 4 * node + 1 - nearer, nearer
+            stack[place(depth)], stack[place(depth + 1)] = 4 * node + 1 - nearer, nearer
             depth += 2
             continue
         start = (node - leaves) * LEAF
-        for j in range(start, min(start + LEAF, m)):
+        for i in range(start, min(start + LEAF, m)):
+            j = place(i)
             first, last, kind_first, kind_last = 0.0, 1.0, VERTEX, VERTEX
             if low > arc[j]:
                 first, kind_first = (low - arc[j]) / (arc[j + 1] - arc[j]), LIMIT

@@ -8,6 +8,7 @@ import numpy as np
 
 from midrib.kernels.boxtree import DEPTH, LEAF, box_tree, nearest_share, squared_distance_to_box
 from midrib.kernels.jit import njit
+from midrib.kernels.places import place
 from midrib.types import Bools, Floats, Ints
 
 __all__ = ["clearances", "nearest_in_run", "nearest_of"]
@@ -70,18 +71,19 @@ def nearest_of(
             stack[0], depth = top ^ 1, 1
             top //= 2
         depth -= 1
-        node = stack[depth]
+        node = place(stack[place(depth)])
         if squared_distance_to_box(px, py, boxes, node) >= nearest:
             continue
         if node < leaves:
             left = squared_distance_to_box(px, py, boxes, 2 * node)
             right = squared_distance_to_box(px, py, boxes, 2 * node + 1)
             nearer = 2 * node if left <= right else 2 * node + 1
-            stack[depth], stack[depth + 1] = 4 * node + 1 - nearer, nearer
+            stack[place(depth)], stack[place(depth + 1)] = 4 * node + 1 - nearer, nearer
             depth += 2
             continue
         first = (node - leaves) * LEAF
-        for j in range(first, min(first + LEAF, bx.size - 1)):
+        for i in range(first, min(first + LEAF, bx.size - 1)):
+            j = place(i)
             if not goes_on[j]:
                 continue
             share, squared = nearest_on_segment(px, py, bx[j], by[j], bx[j + 1], by[j + 1])
@@ -96,8 +98,12 @@ def nearest_in_run(
 ) -> tuple[int, float, float]:
     """Return ``nearest_of`` the segments first .. stop - 1 of a chain, all of which go on; O(n)."""
     nearest, segment, along = np.inf, first, 0.0
-    for j in range(first, stop):
-        share, squared = nearest_on_segment(px, py, bx[j], by[j], bx[j + 1], by[j + 1])
+    ax, ay = bx[place(first)], by[place(first)]
+    for i in range(first, stop):
+        j = place(i)
+        end_x, end_y = bx[j + 1], by[j + 1]
+        share, squared = nearest_on_segment(px, py, ax, ay, end_x, end_y)
+        ax, ay = end_x, end_y
         if squared < nearest:
             nearest, segment, along = squared, j, share
     return segment, along, nearest

@@ -9,7 +9,7 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.kernels.layout import lay_out_rings
 from midrib.kernels.radii import draw_radii
-from midrib.kernels.rings import LARGEST, SMALLEST, normalise_rings, sizes
+from midrib.kernels.rings import LARGEST, SMALLEST, count_rings, normalise_rings, sizes
 from midrib.kernels.stations import default_count, even_stations, place_stations
 from midrib.kernels.trunk import trace_trunk
 from midrib.types import Floats, Ints
@@ -19,27 +19,36 @@ __all__ = ["collapse_rings"]
 
 @njit()
 def collapse_rings(
-    coordinates: Floats, offsets: Ints, share: float, scale_x: float, scale_y: float
+    coordinates: Floats,
+    offsets: Ints,
+    is_known: bool,
+    share: float,
+    scale_x: float,
+    scale_y: float,
 ) -> tuple[bool, Floats, int]:
     """Trunk of an area between the ends that its shape proposes.
 
     Parameters
     ----------
     coordinates, offsets : the rings, as ``normalise_rings`` takes them
+    is_known : whether the area is known to be valid
     share : tolerance, as a share of the mean width
     scale_x, scale_y : lengths of one unit of x and of y
 
     Returns
     -------
     is_done, points, loops
-        Not done where something is unusual: the single steps know what to do or to say.
+        Not done where something is unusual: the single steps know what to do or to say. Nor where
+        an area that is not known to be valid may not be.
     """
     nothing = np.empty((0, 2))
     largest, extent = sizes(coordinates)
-    if largest > LARGEST or extent < SMALLEST:
+    if not (largest <= LARGEST and extent >= SMALLEST):
         return False, nothing, 0
     rings = normalise_rings(coordinates, offsets)
-    divided = lay_out_rings(rings, np.empty(0), scale_x, scale_y)
+    if not is_known and count_rings(rings) < offsets.size - 1:
+        return False, nothing, 0
+    divided = lay_out_rings(rings, np.empty(0), is_known, scale_x, scale_y)
     if not divided.is_divided:
         return False, nothing, 0
     mesh, main, auxiliary = divided.mesh, divided.main, divided.auxiliary

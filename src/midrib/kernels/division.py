@@ -102,10 +102,14 @@ def chain(
     n = order.size
     m = (stop - start) % n
     vertex, sides, arc = np.empty(m + 1, np.intp), np.empty(m, np.intp), np.zeros(m + 1)
+    place = start % n
     for i in range(m + 1):
-        vertex[i] = order[(start + (m - i if is_backward else i)) % n]
+        to = m - i if is_backward else i
+        vertex[to] = order[place]
+        if i < m:
+            sides[to - 1 if is_backward else to] = side[place]
+        place = place + 1 if place + 1 < n else 0
     for i in range(m):
-        sides[i] = side[(start + (m - 1 - i if is_backward else i)) % n]
         a, b = vertex[i], vertex[i + 1]
         dx, dy = (mesh.x[b] - mesh.x[a]) * scale_x, (mesh.y[b] - mesh.y[a]) * scale_y
         arc[i + 1] = arc[i] + length(dx, dy)

@@ -21,6 +21,7 @@ from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
+from midrib.kernels.places import place
 from midrib.kernels.triangulation import next_side, previous_side
 from midrib.types import Floats, Ints
 
@@ -55,7 +56,8 @@ LEAST_BANK = 0.25  # of the shorter way between the two far vertices along the s
 @njit(borrows=True)
 def middle_of(mesh: Mesh, e: int) -> tuple[float, float]:
     """Middle of a side."""
-    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    e = place(e)
+    a, b = place(mesh.tri[e]), place(mesh.tri[next_side(e)])
     return (mesh.x[a] + mesh.x[b]) / 2.0, (mesh.y[a] + mesh.y[b]) / 2.0
 
 
@@ -100,29 +102,29 @@ def sweep(
             e = mesh.twin[previous_side(e)]
         door = mesh.other_door[door]
     while size > 0:
-        e = frontier[size - 1] if is_tree else pop(frontier, cost, size)
+        e = place(frontier[place(size - 1)] if is_tree else pop(frontier, cost, size))
         size -= 1
-        f = mesh.twin[e]
+        f = place(mesh.twin[e])
         if entered[f // 3] != 0:
             continue
         entered[f // 3] = 1
-        w = mesh.tri[previous_side(f)]
+        w = place(mesh.tri[previous_side(f)])
         mx, my = middle_of(mesh, e)
         to_w = cost[e] + length((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
-        for v in (mesh.tri[e], mesh.tri[f]):
+        for v in (place(mesh.tri[e]), place(mesh.tri[f])):
             dx, dy = (mesh.x[w] - mesh.x[v]) * scale_x, (mesh.y[w] - mesh.y[v]) * scale_y
             to_w = min(to_w, way[v] + length(dx, dy))
         way[w] = min(way[w], to_w)
         for side in (next_side(f), previous_side(f)):
-            if mesh.twin[side] < 0 or entered[mesh.twin[side] // 3] != 0:
+            if mesh.twin[side] < 0 or entered[place(mesh.twin[side]) // 3] != 0:
                 continue
             nx, ny = middle_of(mesh, side)
             to_side = cost[e] + length((nx - mx) * scale_x, (ny - my) * scale_y)
-            for v in (mesh.tri[side], mesh.tri[next_side(side)]):
+            for v in (place(mesh.tri[side]), place(mesh.tri[next_side(side)])):
                 dx, dy = (nx - mesh.x[v]) * scale_x, (ny - mesh.y[v]) * scale_y
                 to_side = min(to_side, way[v] + length(dx, dy))
             cost[side] = to_side
-            frontier[size] = side
+            frontier[place(size)] = side
             size = size + 1 if is_tree else push(frontier, cost, size, side)
     farthest = source
     for v in order:

@@ -25,6 +25,7 @@ from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.predicates import orient
+from midrib.kernels.tables import range_of
 from midrib.kernels.triangulation import next_side
 from midrib.kernels.visibility import squared_distance_to_side
 from midrib.types import Bools, Floats, Ints
@@ -137,7 +138,8 @@ def loops_of(
     # 2. Rings of their own.
     ring_x, ring_y = ring_beside(mesh, path, auxiliary)
     boxes = box_tree(ring_x, ring_y)
-    is_long_in_x = bool(np.ptp(ring_x) >= np.ptp(ring_y))
+    (low_x, high_x), (low_y, high_y) = range_of(ring_x), range_of(ring_y)
+    is_long_in_x = high_x - low_x >= high_y - low_y
     stack = np.empty(DEPTH, np.intp)
     for v in range(mesh.x.size):  # in order along the area, so that boxes over runs are small
         e = mesh.door[v]

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from midrib.kernels.jit import njit
+from midrib.kernels.places import place
 from midrib.kernels.predicates import orient
 from midrib.kernels.tables import longer, longer_ints
 from midrib.kernels.triangulation import next_side, previous_side, triangulate_rings
@@ -26,6 +27,7 @@ __all__ = [
     "contains",
     "doors",
     "is_beyond",
+    "is_beyond_side",
     "mesh_rings",
     "next_boundary_side",
     "pull_inside",
@@ -55,6 +57,7 @@ class Triangulated(NamedTuple):
     side_of_segment: Ints
     vertex_of: Ints
     touches: Ints
+    is_valid: bool  # rings are apart, simple and within each other as those of a valid area are
 
 
 @njit(borrows=True)
@@ -62,7 +65,7 @@ def next_boundary_side(mesh: Mesh, e: int) -> int:
     """Return the boundary side that follows e around the inside: the other end of its fan."""
     e = next_side(e)
     while mesh.twin[e] >= 0:
-        e = next_side(mesh.twin[e])
+        e = next_side(place(mesh.twin[e]))
     return e
 
 
@@ -84,17 +87,17 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
     ``side_of_segment[k]`` is the boundary side on ring segment k, ``vertex_of[k]`` the mesh vertex
     of ring vertex k (rings that touch share one), ``touches[k]`` a vertex inside segment k or -1.
     """
-    status, tri, twin, _, side_of_segment, same, touches = triangulate_rings(x, y, ring_next)
+    status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(x, y, ring_next)
     door, other_door = doors(x.size, tri, twin)
     return Triangulated(
-        status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches
+        status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches, is_valid
     )
 
 
 @njit(borrows=True)
 def is_beyond(mesh: Mesh, e: int, px: float, py: float) -> bool:
     """Whether p lies beyond side e, seen from its triangle."""
-    a, b = mesh.tri[e], mesh.tri[next_side(e)]
+    a, b = place(mesh.tri[e]), place(mesh.tri[next_side(e)])
     return orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], px, py) < 0.0
 
 
@@ -107,10 +110,18 @@ def contains(mesh: Mesh, t: int, px: float, py: float) -> bool:
 @njit(borrows=True)
 def side_before(mesh: Mesh, t: int, px: float, py: float) -> int:
     """Return a side of triangle t that has p beyond it; -1 if the closed triangle holds p."""
-    for e in range(3 * t, 3 * t + 3):
-        if is_beyond(mesh, e, px, py):
-            return e
+    for k in range(3):
+        if is_beyond_side(mesh, t, k, px, py):
+            return 3 * t + k
     return -1
+
+
+@njit(borrows=True)
+def is_beyond_side(mesh: Mesh, t: int, k: int, px: float, py: float) -> bool:
+    """Whether p lies beyond side k of triangle t, as ``is_beyond``: with no remainder to take."""
+    e = 3 * place(t)
+    a, b = place(mesh.tri[e + k]), place(mesh.tri[e + (k + 1 if k < 2 else 0)])
+    return orient(mesh.x[a], mesh.y[a], mesh.x[b], mesh.y[b], px, py) < 0.0
 
 
 @njit(borrows=True)

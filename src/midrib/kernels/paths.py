@@ -22,7 +22,14 @@ import numpy as np
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import ROUNDING_REACH, Mesh, contains, is_beyond, pull_inside
+from midrib.kernels.mesh import (
+    ROUNDING_REACH,
+    Mesh,
+    contains,
+    is_beyond,
+    is_beyond_side,
+    pull_inside,
+)
 from midrib.kernels.predicates import orient
 from midrib.kernels.tables import with_places, with_rows
 from midrib.kernels.triangulation import next_side, previous_side
@@ -88,10 +95,11 @@ def walk(
         if t == goal:
             return t, -1
         ahead, second = -1, -1
-        for e in range(3 * t, 3 * t + 3):
+        for k in range(3):
+            e = 3 * t + k
             if e == came_from:
                 continue
-            if is_beyond(mesh, e, qx, qy):
+            if is_beyond_side(mesh, t, k, qx, qy):
                 if ahead < 0:
                     ahead = e
                 else:

@@ -9,9 +9,18 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
+from midrib.kernels.tables import range_of
 from midrib.types import Floats, Ints
 
-__all__ = ["LARGEST", "SMALLEST", "Rings", "find_rings", "normalise_rings", "sizes"]
+__all__ = [
+    "LARGEST",
+    "SMALLEST",
+    "Rings",
+    "count_rings",
+    "find_rings",
+    "normalise_rings",
+    "sizes",
+]
 
 # Products of coordinates and their rounding errors neither overflow nor vanish up to here: the
 # outer triangle of a triangulation is 2^17 extents large, and errors are 2^-106 of a product.
@@ -93,8 +102,11 @@ def first_rows(x: Floats, y: Floats, offsets: Ints) -> Ints:
 def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
     """Order of the rings: the shell, then the holes, along it by their leftmost vertices."""
     n = first.size
-    along, across = (x, y) if np.ptp(x) >= np.ptp(y) else (y, x)
     order, heap, key = np.zeros(n, np.intp), np.empty(n, np.intp), np.empty(n)
+    if n == 1:
+        return order
+    (low_x, high_x), (low_y, high_y) = range_of(x), range_of(y)
+    along, across = (x, y) if high_x - low_x >= high_y - low_y else (y, x)
     size = 0
     for ring in range(1, n):
         key[ring] = along[first[ring]]
@@ -113,6 +125,16 @@ def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
             at -= 1
         order[at] = ring
     return order
+
+
+@njit(borrows=True)
+def count_rings(rings: Rings) -> int:
+    """How many rings are left."""
+    count = 0
+    for k in range(rings.ring_next.size):
+        if rings.ring_next[k] <= k:
+            count += 1
+    return count
 
 
 @njit(entry=True)
@@ -157,10 +179,12 @@ def normalise_rings(coordinates: Floats, offsets: Ints) -> Rings:
         low, leftmost = 0, first[ring]
         while x[rows[low]] != x[leftmost] or y[rows[low]] != y[leftmost]:
             low += 1
-        for i in range(size):
-            origin[count + i] = rows[(low + i) % size]
-            ring_next[count + i] = count + (i + 1) % size
+        for i in range(size):  # remainders would take as long as all the rest
+            origin[count + i] = rows[low]
+            ring_next[count + i] = count + i + 1
+            low = low + 1 if low + 1 < size else 0
         count += size
+        ring_next[count - 1] = count - size
         if ring == 0:
             n_shell = size
     origin = origin[:count].copy()

@@ -25,9 +25,10 @@ Signs are exact, so every ring that is simple and touches others in points only 
 import numpy as np
 
 from midrib.kernels.jit import njit
+from midrib.kernels.places import FURTHEST, place
 from midrib.kernels.predicates import in_circle, orient
-from midrib.kernels.tables import with_places
-from midrib.types import Floats, Ints
+from midrib.kernels.tables import range_of, with_places
+from midrib.types import Floats, Ints, Places
 
 __all__ = ["triangulate_rings"]
 
@@ -50,7 +51,7 @@ def previous_side(e: int) -> int:
 
 
 @njit(borrows=True)
-def join(e: int, f: int, twin: Ints) -> None:
+def join(e: int, f: int, twin: Places) -> None:
     """Make e and f two sides of one edge; f may be -1."""
     twin[e] = f
     if f >= 0:
@@ -58,22 +59,36 @@ def join(e: int, f: int, twin: Ints) -> None:
 
 
 @njit(borrows=True)
-def write_triangle(e: int, a: int, b: int, c: int, tri: Ints, out: Ints) -> None:
+def write_triangle(e: int, a: int, b: int, c: int, tri: Places, out: Places) -> None:
     """Write a b c at the three half-edges from e; remember a half-edge that leaves each."""
     tri[e], tri[e + 1], tri[e + 2] = a, b, c
     out[a], out[b], out[c] = e, e + 1, e + 2
 
 
 @njit(borrows=True)
-def flip(e: int, tri: Ints, twin: Ints, segment: Ints, out: Ints) -> None:
+def flip(e: int, tri: Places, twin: Places, segment: Places, out: Places) -> None:
     """Replace the diagonal e = a-b by c-d; c ends at the last place of both triangles."""
-    f = twin[e]
+    e = place(e)
+    f = place(twin[e])
+    e_next, e_previous = next_side(e), previous_side(e)
+    f_next, f_previous = next_side(f), previous_side(f)
+    on_bc, on_ca = segment[e_next], segment[e_previous]
+    on_ad, on_db = segment[f_next], segment[f_previous]
+    first, second = e - e % 3, f - f % 3
+    flip_free(e, tri, twin, out)
+    segment[first], segment[first + 1], segment[first + 2] = on_ad, FREE, on_ca
+    segment[second], segment[second + 1], segment[second + 2] = on_db, on_bc, FREE
+
+
+@njit(borrows=True)
+def flip_free(e: int, tri: Places, twin: Places, out: Places) -> None:
+    """``flip`` where no segments are, as long as only vertices go in."""
+    e = place(e)
+    f = place(twin[e])
     e_next, e_previous = next_side(e), previous_side(e)
     f_next, f_previous = next_side(f), previous_side(f)
     a, b, c, d = tri[e], tri[f], tri[e_previous], tri[f_previous]
     bc, ca, ad, db = twin[e_next], twin[e_previous], twin[f_next], twin[f_previous]
-    on_bc, on_ca = segment[e_next], segment[e_previous]
-    on_ad, on_db = segment[f_next], segment[f_previous]
     first, second = e - e % 3, f - f % 3
     write_triangle(first, a, d, c, tri, out)
     write_triangle(second, d, b, c, tri, out)
@@ -82,19 +97,22 @@ def flip(e: int, tri: Ints, twin: Ints, segment: Ints, out: Ints) -> None:
     join(first + 2, ca, twin)
     join(second, db, twin)
     join(second + 1, bc, twin)
-    segment[first], segment[first + 1], segment[first + 2] = on_ad, FREE, on_ca
-    segment[second], segment[second + 1], segment[second + 2] = on_db, on_bc, FREE
 
 
 @njit(borrows=True)
-def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: Ints) -> int:
+def locate(
+    px: float, py: float, e: int, x: Floats, y: Floats, tri: Places, twin: Places
+) -> tuple[int, bool]:
     """Return a half-edge of the triangle that holds p: the side p lies on, or the first one.
+
+    And whether p lies on it.
 
     The walk leaves each triangle through a side that has p beyond it; the caller starts it near
     p. Which side is tried first is drawn anew in every triangle: in a fixed order the walk can
     go round in circles where flat triangles are Delaunay only up to rounding.
     Source: O. Devillers, S. Pion, M. Teillaud, Walking in a Triangulation, 2002.
     """
+    e = place(e)
     e -= e % 3
     came_from = -1
     draw = 1
@@ -103,21 +121,22 @@ def locate(px: float, py: float, e: int, x: Floats, y: Floats, tri: Ints, twin: 
         on = -1
         draw = (draw * 1103515245 + 12345) & 0x7FFFFFFF
         for turn_of in range(3):
-            side = e + (turn_of + (draw >> 16)) % 3
+            k = (turn_of + (draw >> 16)) % 3
+            side = e + k
             if side == came_from:
                 continue
-            a, b = tri[side], tri[next_side(side)]
+            a, b = tri[side], tri[side + 1 if k < 2 else e]
             turn = orient(x[a], y[a], x[b], y[b], px, py)
             if turn < 0.0:
-                came_from = twin[side]
+                came_from = place(twin[side])
                 e = came_from - came_from % 3
                 moved = True
                 break
             if turn == 0.0:
                 on = side
         if not moved:
-            return on if on >= 0 else e
-    return -1
+            return (on, True) if on >= 0 else (e, False)
+    return -1, False
 
 
 @njit(inline=True, borrows=True)
@@ -149,27 +168,25 @@ def is_convex(
 @njit(borrows=True)
 def legalise(
     p: int,
-    stack: Ints,
+    stack: Places,
     size: int,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
-    out: Ints,
+    tri: Places,
+    twin: Places,
+    out: Places,
 ) -> None:
     """Flip the edges across from the new vertex p as long as one should be; p gets each."""
     while size > 0:
         size -= 1
-        e = stack[size]
-        f = twin[e]
-        if f < 0:
+        e = place(stack[place(size)])
+        if twin[e] < 0:
             continue
+        f = place(twin[e])
         a, b, d = tri[e], tri[f], tri[previous_side(f)]
         if should_flip(x[a], y[a], x[b], y[b], x[p], y[p], x[d], y[d]):
-            first, second = e - e % 3, f - f % 3
-            flip(e, tri, twin, segment, out)
-            stack[size], stack[size + 1] = first, second
+            stack[place(size)], stack[place(size + 1)] = e - e % 3, f - f % 3
+            flip_free(e, tri, twin, out)
             size += 2
 
 
@@ -178,29 +195,27 @@ def insert_vertex(
     p: int,
     near: int,
     count: int,
-    stack: Ints,
+    stack: Places,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
-    out: Ints,
+    tri: Places,
+    twin: Places,
+    out: Places,
 ) -> tuple[int, int]:
     """Insert p, walking from the half-edge ``near``.
 
     Return the number of triangles and the vertex already at that place, or p itself (-1: the
     walk did not end).
     """
-    e = locate(x[p], y[p], near, x, y, tri, twin)
+    e, on_edge = locate(x[p], y[p], near, x, y, tri, twin)
     if e < 0:
         return count, -1
-    for side in range(e - e % 3, e - e % 3 + 3):
-        v = tri[side]
+    e, count = place(e), place(count)
+    a, b, c = tri[e], tri[next_side(e)], tri[previous_side(e)]
+    for v in (a, b, c):
         if x[v] == x[p] and y[v] == y[p]:
             return count, v
-    a, b, c = tri[e], tri[next_side(e)], tri[previous_side(e)]
     bc, ca, f = twin[next_side(e)], twin[previous_side(e)], twin[e]
-    on_edge = orient(x[a], y[a], x[b], y[b], x[p], y[p]) == 0.0
     first = e - e % 3
     if not on_edge:
         second, third = 3 * count, 3 * count + 3
@@ -214,8 +229,9 @@ def insert_vertex(
         join(second + 1, third + 2, twin)
         join(third + 1, first + 2, twin)
         stack[0], stack[1], stack[2] = first, second, third
-        legalise(p, stack, 3, x, y, tri, twin, segment, out)
+        legalise(p, stack, 3, x, y, tri, twin, out)
         return count + 2, p
+    f = place(f)
     d = tri[previous_side(f)]
     ad, db = twin[next_side(f)], twin[previous_side(f)]
     second, third, fourth = f - f % 3, 3 * count, 3 * count + 3
@@ -232,7 +248,7 @@ def insert_vertex(
     join(second + 1, fourth + 2, twin)
     join(fourth + 1, first + 2, twin)
     stack[0], stack[1], stack[2], stack[3] = first, second, third, fourth
-    legalise(p, stack, 4, x, y, tri, twin, segment, out)
+    legalise(p, stack, 4, x, y, tri, twin, out)
     return count + 2, p
 
 
@@ -263,41 +279,42 @@ def coarse_to_fine(n: int) -> tuple[Ints, int]:
 
 @njit()
 def insert_all(
-    n: int, x: Floats, y: Floats, tri: Ints, twin: Ints, segment: Ints, out: Ints, same: Ints
+    n: int, x: Floats, y: Floats, tri: Places, twin: Places, out: Places, same: Ints
 ) -> int:
     """Insert the vertices 0..n-1; return the number of triangles, -1 on failure.
 
     Each starts from the nearest one before it along the ring that is there already.
     """
-    stack = np.empty(6 * n + 16, np.intp)
+    stack = np.empty(6 * n + 16, np.uint32)
     write_triangle(0, n, n + 1, n + 2, tri, out)
     count, near = 1, 0
     order, stride = coarse_to_fine(n)
     for p in order:
         if p > 0:
             near = out[same[p - min(p & -p, stride)]]
-        count, same[p] = insert_vertex(p, near, count, stack, x, y, tri, twin, segment, out)
+        count, same[p] = insert_vertex(p, near, count, stack, x, y, tri, twin, out)
         if same[p] < 0:
             return -1
     return count
 
 
 @njit(borrows=True)
-def side_around(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
+def side_around(a: int, b: int, tri: Places, twin: Places, out: Places) -> int:
     """Return the half-edge from a to b, found by turning around a, or -1."""
-    start = out[a]
+    start = place(out[a])
     e = start
     for _ in range(tri.size):
         if tri[next_side(e)] == b:
             return e
-        e = twin[previous_side(e)]
-        if e == start or e < 0:
+        f = twin[previous_side(e)]
+        if f == start or f < 0:
             break
+        e = place(f)
     return -1
 
 
 @njit(borrows=True)
-def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
+def find_side(a: int, b: int, tri: Places, twin: Places, out: Places) -> int:
     """Return the half-edge from a to b, or -1.
 
     Around a corner of the outer triangle the turn may end too early; then b has it.
@@ -310,7 +327,7 @@ def find_side(a: int, b: int, tri: Ints, twin: Ints, out: Ints) -> int:
 
 
 @njit(borrows=True)
-def mark(e: int, k: int, twin: Ints, segment: Ints) -> bool:
+def mark(e: int, k: int, twin: Places, segment: Places) -> bool:
     """Lay ring segment k on half-edge e; False if another segment lies there already."""
     if segment[e] != FREE:
         return False
@@ -321,13 +338,13 @@ def mark(e: int, k: int, twin: Ints, segment: Ints) -> bool:
 
 @njit(borrows=True)
 def first_crossing(
-    a: int, b: int, x: Floats, y: Floats, tri: Ints, twin: Ints, out: Ints
+    a: int, b: int, x: Floats, y: Floats, tri: Places, twin: Places, out: Places
 ) -> tuple[int, int]:
     """Where the segment a-b leaves the triangles around a.
 
     The half-edge it crosses, or a vertex on its way (-1, vertex).
     """
-    start = out[a]
+    start = place(out[a])
     e = start
     for _ in range(tri.size):
         u, v = tri[next_side(e)], tri[previous_side(e)]
@@ -336,9 +353,10 @@ def first_crossing(
             return -1, u
         if side_u < 0.0 and orient(x[a], y[a], x[b], y[b], x[v], y[v]) > 0.0:
             return next_side(e), -1
-        e = twin[previous_side(e)]
-        if e == start or e < 0:
+        f = twin[previous_side(e)]
+        if f == start or f < 0:
             break
+        e = place(f)
     return -1, -1
 
 
@@ -347,12 +365,12 @@ def crossed_edges(
     a: int,
     b: int,
     e: int,
-    crossed: Ints,
+    crossed: Places,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
+    tri: Places,
+    twin: Places,
+    segment: Places,
 ) -> tuple[int, int]:
     """Collect the edges (as vertex pairs) that a-b crosses from half-edge e on.
 
@@ -382,15 +400,15 @@ def crossed_edges(
 def force_segment(
     a: int,
     b: int,
-    crossed: Ints,
+    crossed: Places,
     count: int,
-    made: Ints,
+    made: Places,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
-    out: Ints,
+    tri: Places,
+    twin: Places,
+    segment: Places,
+    out: Places,
 ) -> int:
     """Flip the ``count`` crossed edges until a-b is an edge; return how many edges were made.
 
@@ -432,14 +450,14 @@ def force_segment(
 
 @njit(borrows=True)
 def restore_delaunay(
-    made: Ints,
+    made: Places,
     n_made: int,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
-    out: Ints,
+    tri: Places,
+    twin: Places,
+    segment: Places,
+    out: Places,
 ) -> None:
     """Flip the edges that forcing a segment made, where a circle test asks for it."""
     for _ in range(DELAUNAY_PASSES):
@@ -465,10 +483,10 @@ def insert_segments(
     touches: Ints,
     x: Floats,
     y: Floats,
-    tri: Ints,
-    twin: Ints,
-    segment: Ints,
-    out: Ints,
+    tri: Places,
+    twin: Places,
+    segment: Places,
+    out: Places,
 ) -> int:
     """Force every ring segment k, from vertex k to ring_next[k], into the triangulation.
 
@@ -476,8 +494,8 @@ def insert_segments(
     1 + k for a segment that crosses or repeats another.
     """
     n = ring_next.size
-    crossed = np.empty(2 * tri.size, np.intp)
-    made = np.empty(2 * tri.size, np.intp)
+    crossed = np.empty(2 * tri.size, np.uint32)
+    made = np.empty(2 * tri.size, np.uint32)
     for k in range(n):
         a, b = same[k], same[ring_next[k]]
         e = find_side(a, b, tri, twin, out)
@@ -508,50 +526,51 @@ def insert_segments(
 
 @njit()
 def keep_inside(
-    count: int, n_segments: int, tri: Ints, twin: Ints, segment: Ints
-) -> tuple[Ints, Ints, Ints, Ints]:
+    count: int, n_segments: int, tri: Places, twin: Places, segment: Places
+) -> tuple[Ints, Ints, Ints, bool]:
     """Keep the triangles that can be reached from the left of a segment without crossing one.
 
-    Return tri, twin and segment of the kept triangles and the half-edge of each segment; sides
-    on a segment have no twin any more.
+    Return tri and twin of the kept triangles and the half-edge of each segment; sides
+    on a segment have no twin any more. And whether nothing on the right of a segment is kept, nor
+    a corner of the outer triangle: then every hole is in the shell and in no other hole.
     """
-    place = np.full(count, -1, np.intp)
-    stack = np.empty(count, np.intp)
+    count = place(count)
+    row, stack = np.full(count, -1, np.int32), np.empty(count, np.uint32)
     kept, size = 0, 0
-    for e in range(3 * count):
-        if segment[e] >= 0 and place[e // 3] < 0:
-            place[e // 3] = kept
-            stack[kept] = e // 3
+    for t in range(count):
+        e = 3 * place(t)
+        if max(segment[e], segment[e + 1], segment[e + 2]) >= 0:
+            row[t], stack[kept] = kept, t
             kept += 1
     while size < kept:
-        t = stack[size]
+        e = 3 * place(stack[size])
         size += 1
-        for e in range(3 * t, 3 * t + 3):
-            f = twin[e]
-            if segment[e] == FREE and f >= 0 and place[f // 3] < 0:
-                place[f // 3] = kept
-                stack[kept] = f // 3
-                kept += 1
-    new_tri = np.empty(3 * kept, np.intp)
-    new_twin = np.full(3 * kept, -1, np.intp)
-    new_segment = np.full(3 * kept, FREE, np.intp)
-    side_of_segment = np.full(n_segments, -1, np.intp)
-    for i in range(kept):
         for side in range(3):
-            e, new = 3 * stack[i] + side, 3 * i + side
-            new_tri[new] = tri[e]
-            if segment[e] >= 0:
-                new_segment[new] = segment[e]
-                side_of_segment[segment[e]] = new
-            elif segment[e] == FREE and twin[e] >= 0:
-                new_twin[new] = 3 * place[twin[e] // 3] + twin[e] % 3
-    return new_tri, new_twin, new_segment, side_of_segment
+            f = twin[e + side]
+            if segment[e + side] == FREE and f >= 0:
+                t = place(f) // 3
+                if row[t] < 0:
+                    row[t], stack[kept] = kept, t
+                    kept += 1
+    new_tri, new_twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
+    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
+    for i in range(kept):
+        e, new = 3 * place(stack[i]), 3 * place(i)
+        for side in range(3):
+            new_tri[new + side] = v = tri[e + side]
+            on, f = segment[e + side], twin[e + side]
+            is_one_sided = is_one_sided and on != BLOCKED and v < n_segments
+            if on >= 0:
+                side_of_segment[on] = new + side
+            is_open = on == FREE and f >= 0
+            new_twin[new + side] = 3 * row[place(f) // 3] + place(f) % 3 if is_open else -1
+    return new_tri, new_twin, side_of_segment, is_one_sided
 
 
 @njit(entry=True)
 def triangulate_rings(
     x: Floats, y: Floats, ring_next: Ints
-) -> tuple[int, Ints, Ints, Ints, Ints, Ints, Ints]:
+) -> tuple[int, Ints, Ints, Ints, Ints, Ints, bool]:
     """Triangulate what lies to the left of the rings.
 
     Parameters
@@ -562,33 +581,45 @@ def triangulate_rings(
     Returns
     -------
     status : 0; 1 + k if segment k crosses or repeats another; -1 if a walk did not end
-    tri, twin, segment : (3 m,) half-edges as drawn above, of the m triangles inside
+    tri, twin : (3 m,) half-edges as drawn above, of the m triangles inside
     side_of_segment : (n,) the half-edge that ring segment k lies on
     same : (n,) the first vertex with the same coordinates
     touches : (n,) a vertex that lies inside segment k, or -1. Where there is one, nothing else
         is valid: insert it into the ring and call again
+    is_valid : whether the rings are those of a valid area, with none that touch. They are simple
+        and apart, as each segment is a side of triangles that do not overlap, and holes are in the
+        shell only. False may be valid too
 
     Notes
     -----
     O(n log n) expected for rings of any shape.
     """
     n = x.size
+    same, touches = np.full(n, -1, np.intp), np.full(n, -1, np.intp)
+    nothing = np.empty(0, np.intp)
     all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
-    middle_x, middle_y = (x.min() + x.max()) / 2.0, (y.min() + y.max()) / 2.0
-    far = REACH * max(x.max() - x.min(), y.max() - y.min())
+    (low_x, high_x), (low_y, high_y) = range_of(x), range_of(y)
+    middle_x, middle_y = (low_x + high_x) / 2.0, (low_y + high_y) / 2.0
+    far = REACH * max(high_x - low_x, high_y - low_y)
     all_x[n], all_y[n] = middle_x - 2.0 * far, middle_y - far
     all_x[n + 1], all_y[n + 1] = middle_x + 2.0 * far, middle_y - far
     all_x[n + 2], all_y[n + 2] = middle_x, middle_y + 2.0 * far
     size = 3 * (2 * n + 1)
-    tri, twin = np.full(size, -1, np.intp), np.full(size, -1, np.intp)
-    segment, out = np.full(size, FREE, np.intp), np.zeros(n + 3, np.intp)
-    same, touches = np.full(n, -1, np.intp), np.full(n, -1, np.intp)
-    nothing = np.empty(0, np.intp)
-    count = insert_all(n, all_x, all_y, tri, twin, segment, out, same)
+    if size > FURTHEST:
+        return -1, nothing, nothing, nothing, same, touches, False
+    tri, twin = np.empty(size, np.uint32), np.full(size, -1, np.int32)
+    segment, out = np.full(size, FREE, np.int32), np.zeros(n + 3, np.uint32)
+    count = insert_all(n, all_x, all_y, tri, twin, out, same)
     if count < 0:
-        return -1, nothing, nothing, nothing, nothing, same, touches
+        return -1, nothing, nothing, nothing, same, touches, False
     status = insert_segments(ring_next, same, touches, all_x, all_y, tri, twin, segment, out)
-    if status != 0 or touches.max() >= 0:
-        return status, nothing, nothing, nothing, nothing, same, touches
-    tri, twin, segment, side_of_segment = keep_inside(count, n, tri, twin, segment)
-    return 0, tri, twin, segment, side_of_segment, same, touches
+    is_touched = False
+    for k in range(n):
+        is_touched = is_touched or touches[k] >= 0
+    if status != 0 or is_touched:
+        return status, nothing, nothing, nothing, same, touches, False
+    kept = keep_inside(count, n, tri, twin, segment)
+    is_valid = kept[3]
+    for k in range(n):
+        is_valid = is_valid and same[k] == k
+    return 0, kept[0], kept[1], kept[2], same, touches, is_valid
