@@ -79,8 +79,10 @@ def sweep(
     Without holes the triangles form a tree and any order of visits will do; with holes the
     nearest side comes first (Dijkstra).
     """
-    entered[:] = 0
-    way[:] = np.inf
+    for triangle in range(entered.size):
+        entered[triangle] = 0
+    for vertex in range(way.size):
+        way[vertex] = np.inf
     way[source] = 0.0
     size = 0
     sx, sy = mesh.x[source], mesh.y[source]
