@@ -24,6 +24,7 @@ from midrib.kernels.islands import Loops
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
+from midrib.kernels.tables import range_of
 from midrib.kernels.triangulation import next_side
 from midrib.types import Bools, Floats, Ints
 
@@ -143,7 +144,7 @@ def banks_of(
         max(slack, TIE_OF_COORDINATE * largest),
         np.zeros(2, np.intp),
         np.array([[0, MANY], [0, MANY]]),
-        loops.is_main.size == 0 and auxiliary.side.min() >= 0,
+        loops.is_main.size == 0 and range_of(auxiliary.side)[0] >= 0,
         np.empty(DEPTH, np.intp),
     )
 

@@ -14,9 +14,11 @@ from numba.core import compiler
 from numba.core import typed_passes as typed
 from numba.core import untyped_passes as untyped
 from numba.core.compiler_machinery import PassManager
+from numba.core.postproc import PostProcessor, VariableLifetime
 from numba.core.registry import cpu_target
 from numba.core.sigutils import normalize_signature
 from numba.core.targetconfig import ConfigStack
+from numba.core.transforms import canonicalize_cfg
 from numba.core.types.functions import BaseFunction
 
 from midrib.kernels.lowering import KernelLowering
@@ -131,6 +133,7 @@ def parts_only(target: Any) -> Iterator[None]:
         (compiler, "Flags", Settled),
         (cpu_target.target_context, "data_model_manager", UNCUT),
         (BaseFunction, "get_call_type", remembering(calls)),
+        (PostProcessor, "run", sparing(PostProcessor.run)),
     )
     usual = [getattr(owner, name) for owner, name, _ in changes]
     kept.clear()
@@ -162,3 +165,18 @@ def remembering(find: Callable[..., Any]) -> Callable[..., Any]:
         return signature
 
     return get_call_type
+
+
+def sparing(run: Callable[..., Any]) -> Callable[..., Any]:
+    """Find out which variables live how long only where that is used, not after each pass."""
+
+    def run_sparingly(self: Any, emit_dels: bool = False, extend_lifetimes: bool = False) -> None:
+        code = self.func_ir
+        if emit_dels or code.is_generator:
+            run(self, emit_dels, extend_lifetimes)
+            return
+        code.blocks = canonicalize_cfg(code.blocks)
+        code.variable_lifetime = VariableLifetime(code.blocks)  # found out when it is asked for
+        code.generator_info = None
+
+    return run_sparingly

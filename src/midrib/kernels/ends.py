@@ -463,7 +463,8 @@ def propose_ends(
     for which in range(3):
         places, at = shaped.copy(), shares.copy()
         if which > 0:
-            places[2 - which], at[2 - which] = far[2 - which], 0.0
+            places[2 - which, 0], places[2 - which, 1] = far[2 - which, 0], far[2 - which, 1]
+            at[2 - which] = 0.0
         if shorter_bank(arc, places, at) >= least:
             return places, at
     return far, no_shares

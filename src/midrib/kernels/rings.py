@@ -9,6 +9,7 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
+from midrib.kernels.tables import width_of
 from midrib.types import Floats, Ints
 
 __all__ = ["LARGEST", "SMALLEST", "Rings", "find_rings", "normalise_rings", "sizes"]
@@ -93,7 +94,7 @@ def first_rows(x: Floats, y: Floats, offsets: Ints) -> Ints:
 def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
     """Order of the rings: the shell, then the holes, along it by their leftmost vertices."""
     n = first.size
-    along, across = (x, y) if np.ptp(x) >= np.ptp(y) else (y, x)
+    along, across = (x, y) if width_of(x) >= width_of(y) else (y, x)
     order, heap, key = np.zeros(n, np.intp), np.empty(n, np.intp), np.empty(n)
     size = 0
     for ring in range(1, n):

@@ -1,18 +1,35 @@
-"""Copies of tables with room for more: what NumPy does too, but much quicker to compile.
+"""Copies of tables with room for more, and ranges: as of NumPy, but much quicker to compile.
 
 What can go wrong with ``a[:n] = b`` is put into words, and words are compiled along.
 """
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["longer", "longer_ints", "with_places", "with_rows"]
+__all__ = ["longer", "longer_ints", "range_of", "width_of", "with_places", "with_rows"]
 
 Array = TypeVar("Array", Floats, Ints)
+
+
+@njit(borrows=True)
+def range_of(values: Array) -> tuple[Any, Any]:
+    """Least and greatest of some values, one at least."""
+    least = greatest = values[0]
+    for value in values:
+        least = min(least, value)
+        greatest = max(greatest, value)
+    return least, greatest
+
+
+@njit(borrows=True)
+def width_of(values: Floats) -> float:
+    """How far the greatest of some values is from the least."""
+    least, greatest = range_of(values)
+    return float(greatest - least)
 
 
 @njit()

@@ -26,7 +26,7 @@ import numpy as np
 
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import in_circle, orient
-from midrib.kernels.tables import with_places
+from midrib.kernels.tables import range_of, with_places
 from midrib.types import Floats, Ints
 
 __all__ = ["triangulate_rings"]
@@ -574,8 +574,9 @@ def triangulate_rings(
     """
     n = x.size
     all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
-    middle_x, middle_y = (x.min() + x.max()) / 2.0, (y.min() + y.max()) / 2.0
-    far = REACH * max(x.max() - x.min(), y.max() - y.min())
+    (left, right), (low, high) = range_of(x), range_of(y)
+    middle_x, middle_y = (left + right) / 2.0, (low + high) / 2.0
+    far = REACH * max(right - left, high - low)
     all_x[n], all_y[n] = middle_x - 2.0 * far, middle_y - far
     all_x[n + 1], all_y[n + 1] = middle_x + 2.0 * far, middle_y - far
     all_x[n + 2], all_y[n + 2] = middle_x, middle_y + 2.0 * far
@@ -588,7 +589,7 @@ def triangulate_rings(
     if count < 0:
         return -1, nothing, nothing, nothing, nothing, same, touches
     status = insert_segments(ring_next, same, touches, all_x, all_y, tri, twin, segment, out)
-    if status != 0 or touches.max() >= 0:
+    if status != 0 or range_of(touches)[1] >= 0:
         return status, nothing, nothing, nothing, nothing, same, touches
     tri, twin, segment, side_of_segment = keep_inside(count, n, tri, twin, segment)
     return 0, tri, twin, segment, side_of_segment, same, touches
