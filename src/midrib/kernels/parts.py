@@ -14,6 +14,7 @@ from numba.core.environment import lookup_environment
 
 __all__ = ["Part", "Whole"]
 
+INTERNAL = llvm.Linkage.internal
 ENVIRONMENT = "_ZN08NumbaEnv"  # how names of environments begin
 
 
@@ -80,7 +81,7 @@ class Whole(JITCodeLibrary):
         # that comes from the disk can be names of something else by then.
         for function in self._final_module.functions:
             if not function.is_declaration and function.name not in own:
-                function.linkage = llvm.Linkage.internal
+                function.linkage = INTERNAL
         self._linking_libraries = []
         super().finalize()
         codegen: Any = self._codegen
@@ -89,6 +90,15 @@ class Whole(JITCodeLibrary):
                 env = lookup_environment(value.name)
                 if env is not None:
                     codegen.set_env(value.name, env)
+
+    def _get_module_for_linking(self) -> Any:
+        """Return what is kept for others on the disk: names, as they do not link entries."""
+        self._ensure_finalized()
+        functions = self._final_module.functions
+        shown = [f for f in functions if not f.is_declaration and f.linkage != INTERNAL]
+        return llvm.parse_assembly(
+            "\n".join(f'define void @"{f.name}"() {{ unreachable }}' for f in shown)
+        )
 
     def _optimize_final_module(self) -> None:
         """Optimise in one round; a cheap one before takes a fourth of the time in vain."""

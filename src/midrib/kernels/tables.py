@@ -3,7 +3,7 @@
 What can go wrong with ``a[:n] = b`` is put into words, and words are compiled along.
 """
 
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,7 +16,7 @@ Array = TypeVar("Array", Floats, Ints)
 
 
 @njit(borrows=True)
-def range_of(values: Array) -> tuple[Any, Any]:
+def range_of(values: Array) -> tuple[float, float]:
     """Least and greatest of some values, one at least."""
     least = greatest = values[0]
     for value in values:
@@ -29,7 +29,7 @@ def range_of(values: Array) -> tuple[Any, Any]:
 def width_of(values: Floats) -> float:
     """How far the greatest of some values is from the least."""
     least, greatest = range_of(values)
-    return float(greatest - least)
+    return greatest - least
 
 
 @njit()
