@@ -73,7 +73,7 @@ class Report:
         from midrib.kernels.jit import cache_folder
 
         if next(cache_folder().rglob("*.nbi"), None) is None:
-            self.say("midrib compiles its kernels on first use, this takes some tens of seconds …")
+            self.say("midrib compiles its kernels on first use, this takes about 20 seconds …")
 
     def track(
         self,

@@ -81,8 +81,10 @@ def sweep(
     Without holes the triangles form a tree and any order of visits will do; with holes the
     nearest side comes first (Dijkstra).
     """
-    entered[:] = 0
-    way[:] = np.inf
+    for triangle in range(entered.size):
+        entered[triangle] = 0
+    for vertex in range(way.size):
+        way[vertex] = np.inf
     way[source] = 0.0
     size = 0
     sx, sy = mesh.x[source], mesh.y[source]
@@ -463,7 +465,8 @@ def propose_ends(
     for which in range(3):
         places, at = shaped.copy(), shares.copy()
         if which > 0:
-            places[2 - which], at[2 - which] = far[2 - which], 0.0
+            places[2 - which, 0], places[2 - which, 1] = far[2 - which, 0], far[2 - which, 1]
+            at[2 - which] = 0.0
         if shorter_bank(arc, places, at) >= least:
             return places, at
     return far, no_shares

@@ -5,14 +5,18 @@ folder is writable, and it does not notice that a function called from another f
 Both are settled here: the folder lies where NUMBA_CACHE_DIR says, in the user's cache, or in the
 temporary folder where that is read-only, and its name carries a digest of the kernels' sources.
 Numba asks for the folder when a function is decorated; other people's functions keep theirs.
+
+How kernels become code is told in ``compiling`` and ``parts``, which use internals of Numba; with
+a version whose internals are not known, they are compiled as everybody's functions are.
 """
 
 import hashlib
 import os
 import tempfile
 from collections.abc import Callable
+from functools import cache, partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numba as nb
 
@@ -40,7 +44,10 @@ def cache_folder() -> Path:
 
 
 CACHE_FOLDER = str(cache_folder())
+IS_KNOWN = nb.__version__.startswith("0.68.")  # its internals
 WITHIN = {"cache": False, "nogil": False, "no_cpython_wrapper": True}
+if IS_KNOWN:
+    from midrib.kernels import compiling
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 
 
@@ -85,14 +92,45 @@ def njit(
             return kernel
         usual = config.CACHE_DIR
         config.CACHE_DIR = CACHE_FOLDER
+        whole = {"pipeline_class": compiling.WholeCompiler} if entry and IS_KNOWN else {}
         try:
-            dispatcher: Any = nb.njit(kernel, **options)
+            dispatcher: Any = nb.njit(kernel, **(options | whole))
         finally:
             config.CACHE_DIR = usual
-        # To kernels an entry is one of them: they have no use for its door to Python.
-        inner = nb.njit(kernel, **(options | WITHIN)) if entry else dispatcher
-        dispatcher.get_call_template = of_plain_types(inner.get_call_template)
-        dispatcher.get_overload = inner.get_overload
+        within = of_kernel(kernel, options | WITHIN, dispatcher)
+        dispatcher.get_call_template = lambda args, kws: within().call(args, kws)
+        dispatcher.get_overload = lambda signature: within().code(signature)
         return dispatcher
 
     return compiled
+
+
+class Within(NamedTuple):
+    """A kernel as other functions call it."""
+
+    call: Callable[..., Any]  # the type of a call
+    code: Callable[..., Any]  # what there is for types of arguments
+
+
+def of_kernel(kernel: Any, options: dict[str, Any], dispatcher: Any) -> Callable[[], Within]:
+    """Return what gives a kernel to entries, as a part, and to anybody else, as it is.
+
+    To others an entry is one of the kernels: they have no use for its door to Python.
+    """
+
+    @cache
+    def of_others() -> Within:
+        is_entry = dispatcher.targetoptions["nogil"]
+        other = nb.njit(kernel, **options) if is_entry else dispatcher
+        usual = type(dispatcher)
+        call, code = usual.get_call_template, usual.get_overload
+        return Within(of_plain_types(partial(call, other)), partial(code, other))
+
+    @cache
+    def of_entries() -> Within:
+        part: Any = nb.njit(kernel, **options, pipeline_class=compiling.PartCompiler)
+        part.compile = partial(compiling.compile_part, part)
+        part._compiling_counter = dispatcher._compiling_counter  # tells calls of itself
+        return Within(of_plain_types(part.get_call_template), part.get_overload)
+
+    return lambda: of_entries() if IS_KNOWN and compiling.is_part_wanted() else of_others()

@@ -14,7 +14,7 @@ import numpy as np
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
 from midrib.kernels.predicates import orient
-from midrib.kernels.tables import range_of
+from midrib.kernels.tables import width_of
 from midrib.types import Floats, Ints
 
 __all__ = ["cut_loops"]
@@ -48,8 +48,7 @@ def meet(path: Floats, i: int, j: int) -> bool:
 def last_meetings(path: Floats) -> Ints:
     """For each segment the last later segment that meets it, or -1."""
     n = path.shape[0] - 1
-    (low_x, high_x), (low_y, high_y) = range_of(path[:, 0]), range_of(path[:, 1])
-    along = 0 if high_x - low_x >= high_y - low_y else 1
+    along = 0 if width_of(path[:, 0]) >= width_of(path[:, 1]) else 1
     low, high = np.empty(n), np.empty(n)
     ascending, descending = 0, 0
     for i in range(n):

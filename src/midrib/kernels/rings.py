@@ -9,7 +9,7 @@ import numpy as np
 
 from midrib.kernels.heap import pop, push
 from midrib.kernels.jit import njit
-from midrib.kernels.tables import range_of
+from midrib.kernels.tables import width_of
 from midrib.types import Floats, Ints
 
 __all__ = [
@@ -105,8 +105,7 @@ def shell_then_holes(x: Floats, y: Floats, first: Ints) -> Ints:
     order, heap, key = np.zeros(n, np.intp), np.empty(n, np.intp), np.empty(n)
     if n == 1:
         return order
-    (low_x, high_x), (low_y, high_y) = range_of(x), range_of(y)
-    along, across = (x, y) if high_x - low_x >= high_y - low_y else (y, x)
+    along, across = (x, y) if width_of(x) >= width_of(y) else (y, x)
     size = 0
     for ring in range(1, n):
         key[ring] = along[first[ring]]

@@ -1,4 +1,4 @@
-"""Copies of tables with room for more: what NumPy does too, but much quicker to compile.
+"""Copies of tables with room for more, and ranges: as of NumPy, but much quicker to compile.
 
 What can go wrong with ``a[:n] = b`` is put into words, and words are compiled along.
 """
@@ -10,7 +10,7 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["longer", "longer_ints", "range_of", "with_places", "with_rows"]
+__all__ = ["longer", "longer_ints", "range_of", "width_of", "with_places", "with_rows"]
 
 Array = TypeVar("Array", Floats, Ints)
 
@@ -22,6 +22,13 @@ def range_of(values: Floats) -> tuple[float, float]:
     for i in range(values.size):
         low, high = min(low, values[i]), max(high, values[i])
     return low, high
+
+
+@njit(borrows=True)
+def width_of(values: Floats) -> float:
+    """How far the greatest of some values is from the least."""
+    least, greatest = range_of(values)
+    return greatest - least
 
 
 @njit()

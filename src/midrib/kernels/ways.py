@@ -181,7 +181,9 @@ def stops_on_way(
         high = nearest_step(point[1 : n + 1], beads.point[last], scale_x, scale_y) + 2
         high = max(low, high)
     for row, bead in ((low - 1, 0), (high, last)):
-        point[row], at[row], nearest[row] = beads.point[bead], bead, near[bead]
+        at[row] = bead
+        for k in range(2):
+            point[row, k], nearest[row, k] = beads.point[bead, k], near[bead, k]
     return Stops(point[low - 1 : high + 1], at[low - 1 : high + 1], nearest[low - 1 : high + 1])
 
 
