@@ -402,6 +402,9 @@ def main() -> int:
     for kind in KINDS[:-1]:
         of_kind = [s for s in open_ones if s.name.startswith(kind)]
         shaken[kind] = turned_by_noise(of_kind[: options.shaken], 0.1)
+    shaken["deep bays of the toe"] = turned_by_noise(deep_bays(), 0.1)
+    open_polish = [s for s in real_polish() if not s.strip.is_closed]
+    shaken["slopes of a Polish survey"] = turned_by_noise(open_polish, 0.1)
     text = page(groups, rivals, shaken, options.count, on_paper(polish))
     print(text)
     if not options.dry:

@@ -5,7 +5,7 @@ eighth of a gap apart on the middle line, each in directions 4 degrees apart; a 
 end is looked for in which, with a factor e,
 
     neighbours are 0.8 / e to 1.25 e gaps apart, whole counts stretched by a tenth at most included,
-    turn by 20 e degrees or by e times what a corner allows,
+    turn by 20 e degrees or by e times what a corner allows, lean by e times what they may,
     and their ends are 0.25 / e to 1.75 e gaps apart on both edges.
 
 The least e for which there is one is printed beside that of our hatching. Chords between those that
@@ -24,9 +24,10 @@ from shapely import LineString
 from hatch_slopes import Slope, one_random, real_polish, shapes
 from midrib import Strip, hatch
 from midrib.hatching import Hatching
-from midrib.hatching.measures import measure
+from midrib.hatching.bounds import Laid
+from midrib.hatching.measures import laid_of, measure
 from midrib.kernels.chords import ON_TOE, ON_TOP
-from midrib.kernels.gauging import Course, allowed_turns
+from midrib.kernels.gauging import LEAN, Course, allowed_turns
 from midrib.kernels.ladder import draw_strokes, turn_rungs
 from tables import ROOT, markdown
 
@@ -52,6 +53,7 @@ class Chords(NamedTuple):
     feet: Floats  # (n, m, 2) stations on top and toe, NaN where a chord does not join them
     gap: Floats  # (n, m) that the rule asks for
     allowed: Floats  # (n,) degrees that neighbours may turn here
+    lean: Floats  # (n, m) from the normal, over what it may be
 
 
 def chords_of(hatching: Hatching) -> Chords:
@@ -62,16 +64,21 @@ def chords_of(hatching: Hatching) -> Chords:
     station = ladder.rungs[:, 0].copy()
     theta = ladder.rungs[:, 3:4] + DIRECTIONS
     feet, gap = np.full((*theta.shape, 2), np.nan), np.empty(theta.shape)
-    width = ladder.rungs[:, 5]
+    width, lean = ladder.rungs[:, 5], np.full(theta.shape, np.inf)
     for k in range(len(DIRECTIONS)):
         turned = turn_rungs(ladder, theta[:, k].copy(), ground.spacing)
         strokes = draw_strokes(turned, station, ground.spacing)
         leads = (strokes.on == (ON_TOP, ON_TOE)).all(axis=1)
         feet[leads, k] = strokes.chord[leads, :2]
         gap[:, k] = strokes.pivot[:, 5]
+        chord, pivot = strokes.chord[leads], strokes.pivot[leads]
+        laid = Laid(
+            ground.curves, pivot[:, 0], chord[:, :2], chord[:, 2:6], pivot[:, 5], pivot[:, 6]
+        )
+        lean[leads, k] = laid.tilts / np.degrees(laid.gauged[:, LEAN])
     line = Course(*ground.curves.middle)
     allowed = np.degrees(allowed_turns(line, station, width.copy(), hatching.rule.gaps(width)))
-    return Chords(station, theta, feet, gap, allowed)
+    return Chords(station, theta, feet, gap, allowed, lean)
 
 
 @nb.njit()
@@ -84,7 +91,7 @@ def is_possible(  # noqa: C901
     total = chords.station[n - 1]
     for i in range(n):
         for c in range(m):
-            if np.isnan(chords.feet[i, c, 0]):
+            if np.isnan(chords.feet[i, c, 0]) or chords.lean[i, c] > factor:
                 continue
             b = chords.gap[i, c]
             is_reached = chords.station[i] <= end * factor * stretch * b
@@ -133,7 +140,11 @@ def least_factor(chords: Chords) -> float:
 
 def factor_of(hatching: Hatching) -> float:
     """Return the factor that our hatching needs."""
-    found = measure(hatching)
+    found, ground = measure(hatching), hatching.ground
+    assert ground is not None
+    middle = LineString(ground.middle.line)
+    whole = np.ones(len(hatching.strokes), dtype=np.bool_)
+    laid = laid_of(hatching.strip, hatching.rule, middle, whole, hatching.on_top, hatching.on_toe)
     return float(
         max(
             1.0,
@@ -143,6 +154,7 @@ def factor_of(hatching: Hatching) -> float:
             found.top_gap / MOST,
             found.toe_gap / MOST,
             LEAST / found.least_foot,
+            (laid.tilts / np.degrees(laid.gauged[:, LEAN])).max(),
         )
     )
 

@@ -94,6 +94,20 @@ def test_random_slopes_keep_all_bounds_and_do_not_depend_on_how_they_are_told(ki
         assert moved_by(hatching, far, SHIFT) <= 1e-6
 
 
+@pytest.mark.parametrize(
+    ("kind", "seed"), [("sharp", 2132), ("sharp", 1532), ("spur", 1007), ("deep", 1258)]
+)
+def test_local_widths_are_twice_the_distance_to_the_farther_edge(kind: str, seed: int) -> None:
+    """Chords at corners of a V run along the slope and end far away, or on the wrong edge."""
+    hatching = hatch(one_random(kind, seed).strip, min_spacing=0.1)
+    assert hatching.ground is not None
+    rungs = hatching.ground.ladder.rungs[3:-3]  # chords at the ends are shorter than it
+    points = shapely.points(rungs[:, 1:3])
+    strip = hatching.strip
+    off = [shapely.distance(points, edge) for edge in (strip.main, strip.auxiliary)]
+    assert rungs[:, 7] == pytest.approx(2.0 * np.maximum(*off), rel=0.03)
+
+
 @pytest.mark.shared
 @pytest.mark.skipif(not FOLDER.is_dir(), reason="the folder of shared test data is absent")
 def test_real_slopes_keep_bounds_or_say_so() -> None:
@@ -106,7 +120,7 @@ def test_real_slopes_keep_bounds_or_say_so() -> None:
         beyond += sum("end is" not in one.reason for one in found.beyond)
         turned = Strip(shapely.reverse(slope.strip.main), slope.strip.auxiliary, slope.strip.area)
         assert moved_by(hatching, hatch(turned)) <= 1e-6, slope.name
-    assert beyond <= 12  # seen to be true, one by one
+    assert beyond <= 6
 
 
 @pytest.mark.parametrize(("strip", "gap"), [(rectangle(100.0, 10.0), 5.0), (trapezium(), None)])
@@ -125,22 +139,27 @@ def test_strokes_of_a_small_mound_are_apart_all_the_way_round(radius: float, is_
     plain = annulus(radius, 12.0)
     hatching = hatch(Strip(plain.auxiliary, plain.main) if is_pit else plain)
     found = measure(hatching)
-    assert len(hatching.strokes) >= 4
-    assert found.least_foot >= 0.25 * (1.0 - 1e-6) or radius < 1.0
+    assert len(hatching.strokes) >= (4 if is_pit or radius >= 1.0 else 1)
+    assert found.least_foot >= 0.25 * (1.0 - 1e-6)
     assert not untold(hatching, found)
     missing = [problem for problem in hatching.problems if problem.kind == "missing"]
     assert is_pit or len(hatching.strokes) % 2 == 0 or missing
 
 
-@pytest.mark.parametrize(("radius", "count"), [(0.2, 6), (0.3, 6), (0.7, 4), (1.0, 4)])
-def test_thinned_out_strokes_are_even(radius: float, count: int) -> None:
+@pytest.mark.parametrize("radius", [0.2, 0.3, 0.7, 1.0])
+def test_thinned_out_strokes_are_even_and_as_many_as_fit(radius: float) -> None:
+    """n even strokes begin 2 r sin(pi / n) apart, a quarter of half the width at least."""
     hatching = hatch(annulus(radius, 12.0))
+    least = 0.25 * 0.5 * (12.0 - radius)
+    fit = [n for n in range(2, 40, 2) if 2.0 * radius * np.sin(np.pi / n) >= least]
+    count = max(fit, default=1)
     assert len(hatching.strokes) == count
     for ends in (hatching.on_top, hatching.on_toe):
         angle = np.sort(np.arctan2(*ends.T[::-1]) % (2.0 * np.pi))
         around = np.append(np.diff(angle), angle[0] + 2.0 * np.pi - angle[-1])
-        assert around == pytest.approx(np.full(count, 2.0 * np.pi / count), abs=0.01)
-    assert (hatching.is_long != np.roll(hatching.is_long, 1)).all()
+        assert around == pytest.approx(np.full(count, 2.0 * np.pi / count), abs=1e-3)
+    assert (hatching.is_long != np.roll(hatching.is_long, 1)).all() or count == 1
+    assert hatching.problems
 
 
 @pytest.mark.parametrize(
@@ -170,9 +189,9 @@ def test_only_a_tip_that_has_room_for_strokes_is_told() -> None:
     assert ["the slope's end is" in one.reason for one in fewer.beyond] == [True]
 
 
-@pytest.mark.parametrize("beyond", [0.1, 0.4, 1.0, 3.0])
-def test_what_nobody_sees_is_no_problem(beyond: float) -> None:
-    """Two strokes of a wide slope that turn by so many degrees more than they may."""
+@pytest.mark.parametrize("beyond", [-0.1, 0.1, 0.4, 1.0, 3.0])
+def test_what_is_beyond_a_bound_by_little_is_told_too(beyond: float) -> None:
+    """A stroke of a wide slope that leans by so many degrees more than it may."""
     strip = rectangle(400.0, 10.0)
     hatching = hatch(strip)
     on_top, on_toe = hatching.on_top.copy(), hatching.on_toe.copy()
@@ -182,7 +201,25 @@ def test_what_nobody_sees_is_no_problem(beyond: float) -> None:
         hatching.is_long, on_top, on_toe,
     )  # fmt: skip
     leaning = [one for one in found.beyond if "off the normals" in one.reason]
-    assert len(leaning) == (beyond > 0.5)
+    assert len(leaning) == (beyond > 0.0)
+
+
+@pytest.mark.parametrize("degrees", [10.0, 25.0, 35.0])
+@pytest.mark.parametrize("is_turned", [False, True])
+def test_strokes_between_edges_that_converge_keep_to_the_normal_of_the_top(
+    degrees: float, is_turned: bool
+) -> None:
+    """Half the angle between the edges is more than strokes may lean from it."""
+    turn = np.radians(degrees)
+    top = LineString([(0, 0), (80, 0)])
+    toe = LineString([(0, 0), (80 * np.cos(turn), -80 * np.sin(turn))])
+    hatching = hatch(Strip(toe, top) if is_turned else Strip(top, toe))
+    found = measure(hatching)
+    assert found.tilts.size > 0.5 * found.strokes
+    assert found.tilts.max() <= 10.0
+    assert found.spacing.min() >= 0.8
+    assert found.spacing.max() <= 1.25
+    assert not hatching.problems
 
 
 @pytest.mark.parametrize(("outer", "inner"), [(25.0, 6.0), (25.0, 3.0), (12.0, 3.0)])

@@ -112,6 +112,15 @@ def test_single_numbers_near_the_origin_are_as_good_as_doubles() -> None:
     assert axis.points == pytest.approx(tower_axis(points).points, abs=1e-4)
 
 
+def test_strays_of_a_scan_say_nothing_about_the_steps_of_its_numbers() -> None:
+    """Numbers where the tower stands are fine: what is 5,800 km away is no part of it."""
+    points = CONE.points()
+    with_strays = points.copy()
+    with_strays[::100] = (0.0, 5_800_000.0, 1.0)
+    axis = tower_axis(with_strays.astype(np.float32))
+    assert axis.points == pytest.approx(tower_axis(points).points, abs=1e-4)
+
+
 def test_steps_of_single_numbers_are_measured_in_metres() -> None:
     # 30,000 mm: the step is 0.002 of the unit, and of no matter.
     sample = np.full((100, 3), 30_000.0)

@@ -31,7 +31,6 @@ EDGE_GAP, LEAST_FOOT = 1.75, 0.25  # gaps between their ends: along the edge, an
 END_GAP = 1.5  # gaps from the ends of the middle line
 TIP_PLACES = 65  # between an end and the next stroke, where the width is told
 ROUNDING = 1e-6  # relative
-UNSEEN, UNSEEN_TURN = 0.02, np.radians(0.5)  # nobody sees gaps or directions that are so little off
 TEXTS = {
     STEP: f"neighbours are {{:.2f}} times the rule's gap apart, {SPACING[0]:g} to {SPACING[1]:g} "
     "wanted",
@@ -83,11 +82,16 @@ class Laid:
         self.count = station.size if closed else max(station.size - 1, 0)  # of neighbours
 
     @cached_property
+    def widths(self) -> Floats:
+        """Lengths of the whole strokes."""
+        lengths: Floats = np.hypot(*(self.ends[:, 2:] - self.ends[:, :2]).T)
+        return lengths
+
+    @cached_property
     def gauged(self) -> Floats:
         """All numbers about them; see ``midrib.kernels.gauging``."""
         line, top, toe = (Course(*curve) for curve in self.curves)
-        widths = np.hypot(*(self.ends[:, 2:] - self.ends[:, :2]).T)
-        local = np.minimum(widths, MOST_LOCAL * self.local)
+        local = np.minimum(self.widths, MOST_LOCAL * self.local)
         station, feet, ends, asked = (
             np.ascontiguousarray(a) for a in (self.station, self.feet, self.ends, self.asked)
         )
@@ -135,15 +139,6 @@ class Laid:
         gaps: Floats = away / self.asked[[first, last], None]
         return gaps
 
-    @property
-    def longest_step(self) -> float:
-        """Longest way along an edge without a foot, of open ones to its ends too, as a share."""
-        feet, longest = np.sort(self.feet, axis=0), 0.0
-        for inner, edge in zip(feet.T, (self.curves.top, self.curves.toe), strict=True):
-            at = inner if edge.is_closed else np.concatenate([[0.0], inner, [edge.length]])
-            longest = max(longest, float(np.diff(at).max(initial=0.0)) / edge.length)
-        return longest
-
     @cached_property
     def beyond(self) -> Floats:
         """(n, 9) how far each number is beyond its bound, 0 within.
@@ -171,16 +166,11 @@ class Excess(NamedTuple):
 
 
 def excesses(laid: Laid) -> list[Excess]:
-    """Places where neighbours, or strokes by themselves, visibly exceed a bound; O(n + m).
-
-    The search for better strokes keeps to the bounds themselves.
-    """
+    """Places where neighbours, or strokes by themselves, exceed a bound; O(n + m)."""
     n, pivots = laid.station.size, laid.curves.middle.at(laid.station)
-    unseen = np.full(laid.beyond.shape[1], UNSEEN)
-    unseen[[TURN, NORMAL]] = UNSEEN_TURN
-    is_seen, found = laid.beyond > unseen, []
-    for row in np.flatnonzero(is_seen.any(axis=1)).tolist():
-        columns = np.flatnonzero(is_seen[row]).tolist()
+    found = []
+    for row in np.flatnonzero(laid.beyond.any(axis=1)).tolist():
+        columns = np.flatnonzero(laid.beyond[row]).tolist()
         values = laid.gauged[row].copy()
         values[[TURN, ALLOWED, LEAN]] = np.degrees(values[[TURN, ALLOWED, LEAN]])
         values[NORMAL], most = laid.tilts[row], {TURN: values[ALLOWED], NORMAL: values[LEAN]}
@@ -209,11 +199,11 @@ def far_ends(laid: Laid, offset: float = 1.0, least: float = 0.0) -> list[Excess
     most, found = most_at_ends(offset), []
     nearest = (int(np.argmin(laid.station)), int(np.argmax(laid.station)))
     for end, whole, row in zip((0, -1), laid.end_gaps, nearest, strict=True):
-        if whole <= most * (1.0 + UNSEEN):
+        if whole <= most * (1.0 + ROUNDING):
             continue
         at = laid.station[row]
         away = roomy(laid.curves, at, middle.length if end else 0.0, least) / laid.asked[row]
-        if away <= most * (1.0 + UNSEEN):
+        if away <= most * (1.0 + ROUNDING):
             continue
         reason = f"the slope's end is {away:.1f} gaps from a stroke, {most:.3g} at most wanted"
         found.append(Excess(row, Point((middle.points[end] + middle.at(at)) / 2.0), reason))

@@ -20,7 +20,6 @@ __all__ = ["Finished", "Problem", "finish", "islands_of", "lines_of", "zones_of"
 TINY, LARGEST = 2.0**-1000, 2.0**1000
 LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other
 MANY = 0.25  # of strokes of a closed slope: if so many are too near, all are thinned out
-FEWEST = 2  # patterns that stay even so: a mound with a stroke on one side only is none
 
 
 class Problem(NamedTuple):
@@ -156,22 +155,21 @@ def too_near(
 def evenly(points: Floats, kept: Bools, gap: Floats, period: int) -> Ints:
     """Most strokes of a closed slope in whole patterns, as even as can be, that are far enough.
 
-    Two patterns at least, however near. None if few of them are near: then the others should stay
-    as they are.
+    None if few of them are near: then the others should stay as they are. None either if there is
+    not even room for one pattern.
     """
     rows = np.flatnonzero(kept)
     ahead = np.roll(rows, -1)
     steps = np.hypot(*(points[ahead] - points[rows]).T)
     if np.mean(steps < LEAST_FOOT * (gap[ahead] + gap[rows]) / 2.0) < MANY:
         return rows[:0]
-    counts = range(rows.size // period * period, (FEWEST - 1) * period, -period)
-    for count in counts:
+    for count in range(rows.size // period * period, 0, -period):
         chosen = every(rows, count)
         some = np.zeros(kept.size, dtype=np.bool_)
         some[chosen] = True
         if are_apart(points, some, gap, True):
             return chosen
-    return every(rows, min((n for n in counts if rows.size % n == 0), default=rows.size))
+    return rows[:0]
 
 
 def every(rows: Ints, count: int) -> Ints:
@@ -226,11 +224,8 @@ def pattern_broken(drawn: Drawn, kept: Bools, pattern: str) -> list[Problem]:
     if count % len(pattern) == 0:
         return []
     where = Point(drawn.middle[np.flatnonzero(kept)[0]])
-    return [
-        Problem(
-            where, f"{count} strokes are no whole patterns {pattern}; it begins anew here", "beyond"
-        )
-    ]
+    some = f"{count} strokes are no whole patterns" if count > 1 else "one stroke is no pattern"
+    return [Problem(where, f"{some} {pattern}; it begins anew here", "beyond")]
 
 
 def are_apart(points: Floats, chosen: Bools, gap: Floats, is_closed: bool) -> bool:

@@ -2,12 +2,14 @@
 
 import numpy as np
 
+from midrib.hatching.bare import bare_stretches
 from midrib.hatching.bounds import Laid
 from midrib.hatching.laying import Found, Ground, draw_at
+from midrib.hatching.middle import LONGEST_SIDE
 from midrib.hatching.mirror import is_own_mirror
-from midrib.hatching.rule import Rule
+from midrib.hatching.rule import LEAST_LENGTH, Rule
 from midrib.kernels.fans import Wanted
-from midrib.kernels.gauging import LEAN, NORMAL, STEP, Course, allowed_turns
+from midrib.kernels.gauging import STEP, Course, allowed_turns, leans
 from midrib.kernels.ladder import (
     MOST_LOCAL,
     TAU,
@@ -24,7 +26,8 @@ __all__ = ["improved"]
 
 AXIS_ROOMS = (0.0, 0.25, 0.5, 0.75)  # gaps on either side of an axis that half the strokes leave
 WORSE = (1.1, 0.3)  # how much farther beyond bounds strokes may be for being their own mirror image
-LONGER = 1.05  # how much longer than before a step along an edge may be if there are fewer strokes
+AS_BAD = 1.05  # of images that are as bad but for so much, the evenest is taken
+IN_TROUBLE = 1.2  # as bad as being oblique by so much, for a stroke that stays
 BESIDE = 6  # calm strokes on either side of trouble that are placed anew too
 Chosen = tuple[int, int, Floats]  # first and last stroke of a stretch, which stay; and new ones
 
@@ -41,7 +44,8 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     steps = laid.between(STEP)
     stretch = float(np.median(steps)) if steps.size > 1 else 1.0
     period = len(rule.pattern) if ground.middle.is_closed else 1
-    ends = stretches(trouble, kept, ground.middle.is_closed)
+    oblique = found.strokes.chord[:, 6] / found.strokes.pivot[:, 6]
+    ends = stretches(trouble, kept, ground.middle.is_closed, oblique)
     spans = [span(found, first, last) for first, last in ends]
     allowed, upright = bounds_at_rungs(ground, spans)
     chosen: list[Chosen] = []
@@ -58,8 +62,10 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
     now, better = other.laid(rule), []
     for part in chosen:
         between = span(found, *part[:2])
-        if is_better(other, now, found, laid, between, offset):
+        if other.badness(now, between, offset) < found.badness(laid, between, offset):
             better.append(part)
+    if better and is_barer(now, laid, rule):
+        better = []
     best = other if len(better) == len(chosen) else with_chosen(found, better, stiffness)
     if ground.middle.is_closed:
         return best
@@ -101,17 +107,22 @@ def mirrored(
             near = some[some[:, 0] < length / 2.0 - room * axis.pivot[0, 5]]
             halves += [(near, False), (near, True)]
     images = [with_image(near, length, has_axis) for near, has_axis in halves]
-    chosen, least = best, best.badness(laid, (0.0, length), wanted.offset)
-    least = (least[0], WORSE[0] * least[1] + WORSE[1] * (least[1] > 0.0), np.inf)
+    missing, beyond, _ = best.badness(laid, (0.0, length), wanted.offset)
+    most = missing, WORSE[0] * beyond + WORSE[1] * (beyond > 0.0), np.inf
+    tried = []
     for image in images:
         if not len(image):
             continue
         other = with_chosen(found, [*others, (first, last, image)], stiffness)
         now = other.laid(rule)
         badness = other.badness(now, (0.0, length), wanted.offset)
-        if badness < least and not is_barer(now, laid):
-            chosen, least = other, badness
-    return chosen
+        if badness < most and not is_barer(now, laid, rule):
+            tried.append((badness, other))
+    if not tried:
+        return best
+    missing, beyond, _ = min(badness for badness, _ in tried)
+    as_good = [one for one in tried if one[0][0] == missing and one[0][1] <= AS_BAD * beyond]
+    return min(as_good, key=lambda one: one[0][2])[1]
 
 
 def with_its_image(first: int, last: int, count: int) -> tuple[int, int]:
@@ -129,19 +140,19 @@ def with_image(rows: Floats, length: float, has_axis: bool) -> Floats:
     return np.concatenate([rows, axis, image])
 
 
-def is_better(
-    other: Found, now: Laid, found: Found, laid: Laid, between: tuple[float, float], offset: float
-) -> bool:
-    """Whether other strokes are less bad, and not fewer that leave an edge bare for longer."""
-    if not other.badness(now, between, offset) < found.badness(laid, between, offset):
+def is_barer(now: Laid, before: Laid, rule: Rule) -> bool:
+    """Whether there are fewer strokes than before and more of an edge is bare."""
+    if now.station.size >= before.station.size:
         return False
-    return not is_barer(now, laid)
+    bare = bare_length(now, rule)
+    return bare > 0.0 and bare > bare_length(before, rule)
 
 
-def is_barer(now: Laid, before: Laid) -> bool:
-    """Whether there are fewer strokes than before and an edge is without one for longer."""
-    is_fewer = now.station.size < before.station.size
-    return is_fewer and now.longest_step > LONGER * before.longest_step
+def bare_length(laid: Laid, rule: Rule) -> float:
+    """Length of both edges that is bare."""
+    edges, side = laid.curves[1:], LONGEST_SIDE * float(laid.local.mean())
+    least = LEAST_LENGTH * rule.least_gap
+    return sum(b.length for b in bare_stretches(edges, rule, laid.feet, laid.asked, least, side))
 
 
 def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[Floats, Floats]:
@@ -157,13 +168,12 @@ def bounds_at_rungs(ground: Ground, spans: list[tuple[float, float]]) -> tuple[F
         near |= (ahead >= 0.0) & (ahead <= high - low)
     near |= np.roll(near, 1) | np.roll(near, -1)
     strokes = draw_strokes(ladder, tau[near], ground.spacing)
-    station, asked, chord = strokes.pivot[:, 0], strokes.pivot[:, 5], strokes.chord
-    local = strokes.pivot[:, 6]
-    laid = Laid(curves, station, chord[:, :2], chord[:, 2:6], asked, local)
-    line, widths = Course(*curves.middle), np.minimum(chord[:, 6], MOST_LOCAL * local)
+    station, asked, local = (strokes.pivot[:, column].copy() for column in (0, 5, 6))
+    line, top, toe = (Course(*curve) for curve in curves)
+    widths = np.minimum(strokes.chord[:, 6], MOST_LOCAL * local)
     allowed, upright = np.full(tau.size, np.inf), np.full((tau.size, 2), np.nan)
-    allowed[near] = allowed_turns(line, station.copy(), widths, asked.copy())
-    upright[near] = laid.gauged[:, [NORMAL, LEAN]]
+    allowed[near] = allowed_turns(line, station, widths, asked)
+    upright[near] = leans(top, toe, strokes.chord[:, :2].copy(), widths)
     return allowed, upright
 
 
@@ -191,10 +201,14 @@ def span(found: Found, first: int, last: int) -> tuple[float, float]:
     return low, high + (middle.periods[2] if middle.is_closed and high <= low else 0.0)
 
 
-def stretches(trouble: Bools, kept: Bools, is_closed: bool) -> list[tuple[int, int]]:
+def stretches(
+    trouble: Bools, kept: Bools, is_closed: bool, oblique: Floats | None = None
+) -> list[tuple[int, int]]:
     """First and last stroke of each stretch, calm ones; -1 at an end of the slope.
 
-    Round a closed slope without a calm one, a stretch leads from one stroke that stays to itself.
+    Round a closed slope without a calm one, a stretch leads from one stroke that stays to itself:
+    the least oblique one, and no one in trouble if that is little more so. ``oblique`` is lengths
+    over local widths.
     """
     n = trouble.size
     near = trouble.copy()
@@ -207,9 +221,9 @@ def stretches(trouble: Bools, kept: Bools, is_closed: bool) -> list[tuple[int, i
     if near.all():
         if not is_closed:
             return [(-1, -1)]
-        some = kept if trouble[kept].all() else ~trouble
-        row = int(np.argmax(some))
-        return [(row, row)] if some.any() else []
+        rank = (np.ones(n) if oblique is None else oblique) * np.where(trouble, IN_TROUBLE, 1.0)
+        row = int(np.argmin(np.where(kept, rank, np.inf)))
+        return [(row, row)] if kept.any() else []
     first = int(np.argmin(near)) if is_closed else 0
     edges = np.flatnonzero(np.diff(np.roll(near, -first), prepend=False, append=False))
     found = []

@@ -6,7 +6,7 @@ import numpy as np
 
 from midrib.hatching.bounds import Curves, Laid, most_at_ends
 from midrib.hatching.middle import Middle
-from midrib.hatching.rule import Rule
+from midrib.hatching.rule import LEAST_LENGTH, Rule
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.gauging import NORMAL, STEP, TOE, TOP
 from midrib.kernels.ladder import TAU, THETA, Ladder, Spacing, Strokes, draw_turned
@@ -80,12 +80,13 @@ class Found(NamedTuple):
     ) -> tuple[int, float, float]:
         """How bad strokes are from one station to another, on a closed slope past its start.
 
-        How many are left out, how far the others are beyond bounds, and how uneven they are: the
-        logarithm of the largest gap over the smallest.
+        How many are left out or too short to be drawn, how far the others are beyond bounds, and
+        how uneven they are: the logarithm of the largest gap over the smallest.
         """
         period, (low, high) = self.ground.middle.periods[2], between
         missing = int(np.count_nonzero(self.inside(self.strokes.pivot[~self.kept, 0], between)))
         some = self.inside(laid.station, between)
+        missing += int(np.count_nonzero(some & (laid.widths < LEAST_LENGTH * laid.asked)))
         steps = laid.between(STEP)
         pairs = (some & np.roll(some, -1))[: steps.size]
         off = laid.beyond[: steps.size][pairs]

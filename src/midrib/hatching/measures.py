@@ -59,8 +59,8 @@ class Measures:
         Degrees that they may turn: 20, or where the middle line turns by A within 1.5 w on either
         side, A b over the length of that stretch, if that is more.
     tilts : (m,) array
-        Degrees between a stroke and the normal of the top, where both edges are straight for two
-        widths to either side and parallel, but for 10 degrees.
+        Degrees between a stroke and the normal of the top, where that is straight for two widths
+        to either side, but for 10 degrees.
     beyond : list of Excess
         Places where a bound of ``midrib.hatching.bounds`` is exceeded.
     """

@@ -19,7 +19,15 @@ import numpy as np
 from midrib.kernels.jit import njit
 from midrib.types import Floats, Ints
 
-__all__ = ["Fans", "Wanted", "cheapest_way", "cost_of_end", "cost_of_step", "middle_of_fans"]
+__all__ = [
+    "BROKEN",
+    "Fans",
+    "Wanted",
+    "cheapest_way",
+    "cost_of_end",
+    "cost_of_step",
+    "middle_of_fans",
+]
 
 GAP_COST, UNEVEN_COST, GAP_WALL = 5.0, 200.0, 4000.0  # of l: squared, beyond UNEVEN, beyond FAR_OFF
 UNEVEN, FAR_OFF, FARTHEST = 0.08, 0.2, 0.7  # of l
@@ -28,6 +36,8 @@ TURN_WALL, TURN_NEARLY = 20_000.0, 0.985
 FOOT_COST, FOOT_NEAR, FOOT_FAR = 60.0, 0.45, 1.5  # for each squared gap beyond these
 FOOT_WALL, FOOT_NEAREST, FOOT_FARTHEST = 2000.0, 0.28, 1.7
 LEAP, LEAP_COST = 0.3, 400.0  # gaps beyond that; then of the cubed logarithm
+BROKEN = 20.0  # for each bound that is exceeded, however little
+MOST_OFF, LEAST_FOOT, MOST_FOOT = np.log(1.25), 0.25, 1.75  # of l, and gaps between feet
 AT_END, FARTHEST_END = 10.0, 1.0  # cost of l squared at ends, and the most l there
 END_ROOM = 0.35  # of l there; more costs much
 TIED = 1.0 - 2.0**-30  # a way that is cheaper by less is as cheap, whatever rounding says
@@ -91,14 +101,16 @@ def cost_of_step(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted, mos
     turn, allowed = abs(fans.calm[i] - fans.calm[j] + bend), min(fans.allowed[i], fans.allowed[j])
     over = max(turn - TURN_ROOM * allowed, 0.0)
     beyond = max(turn - TURN_NEARLY * allowed, 0.0)
-    cost += TURN_COST * over * over + TURN_WALL * beyond * beyond
+    cost += TURN_COST * over * over + TURN_WALL * beyond * beyond + BROKEN * (turn > allowed)
     if cost >= most:
         return np.inf
     # 2. The gap.
     off = abs(np.log(ahead / b))
     uneven = max(off - UNEVEN, 0.0)
-    beyond = max(abs(np.log(ahead / plain)) - FAR_OFF, 0.0)
+    off_plain = abs(np.log(ahead / plain))
+    beyond = max(off_plain - FAR_OFF, 0.0)
     cost += GAP_COST * off * off + UNEVEN_COST * uneven * uneven + GAP_WALL * beyond * beyond
+    cost += BROKEN * (off_plain > MOST_OFF)
     if cost >= most:
         return np.inf
     # 3. Feet, which have to advance.
@@ -124,7 +136,8 @@ def cost_of_foot(foot: float) -> float:
     """
     over = min(max(FOOT_NEAR - foot, foot - FOOT_FAR, 0.0), LEAP)
     beyond = max(FOOT_NEAREST - foot, 0.0)
-    return FOOT_COST * over * over + FOOT_WALL * beyond * beyond + cost_of_leap(foot)
+    broken = BROKEN * (foot > MOST_FOOT or foot < LEAST_FOOT)
+    return FOOT_COST * over * over + FOOT_WALL * beyond * beyond + broken + cost_of_leap(foot)
 
 
 @njit(borrows=True)

@@ -20,14 +20,15 @@ from midrib.types import Bools, Floats
 
 __all__ = [
     "ALLOWED", "LEAN", "LEAST_TURN", "MOST_TILT", "NEAR_TOE", "NEAR_TOP", "NORMAL", "STEP", "TOE",
-    "TOP", "TURN", "Course", "allowed_turns", "gauge",
+    "TOP", "TURN", "Course", "allowed_turns", "direction_on", "gauge", "is_straight",
+    "leans",
 ]  # fmt: skip
 
 STEP, TOP, TOE, NEAR_TOP, NEAR_TOE, TURN, ALLOWED, NORMAL, LEAN = range(9)
 LEAST_TURN = np.pi / 9.0  # 20 degrees: so much neighbours may turn anyway
 CORNER = 1.5  # lengths of stroke to either side, over which the middle line may turn too
 STRAIGHT = np.pi / 18.0  # 10 degrees: an edge that turns less within two widths has no corner there
-MOST_TILT = np.pi / 18.0  # 10 degrees from the normal, where both edges are straight and parallel
+MOST_TILT = np.pi / 18.0  # 10 degrees from the normal of a top that is straight
 MOST_LEAN = np.pi / 7.2  # 25 degrees beyond all normals of the straighter edge, anywhere else
 SHORTEST_CHORD = 0.25  # of a chord: shorter ends of an edge have no direction
 FEWEST_CHORDS = 8.0  # of an edge
@@ -146,15 +147,23 @@ def leaning(
 ) -> tuple[float, float]:
     """Direction of the normal that a stroke may not lean from too far, and how far it may.
 
-    Where both edges are straight and parallel it is that of the top. Anywhere else the stroke may
-    be normal to any part of the straighter edge beside it, of both if both are straight, and of all
-    directions between. Near an end where an edge begins with a side, it may turn as far as that.
+    Where the top is straight it is that of the top; anywhere else see ``leaning_anywhere``.
     """
-    if is_straight(top, on_top, width) and is_straight(toe, on_toe, width):
-        here = direction_on(top, on_top, width)
-        off = direction_on(toe, on_toe, width) - here
-        if abs(folded(off, 2.0 * np.pi)) <= STRAIGHT:
-            return here + np.pi / 2.0, MOST_TILT
+    if is_straight(top, on_top, width):
+        return direction_on(top, on_top, width) + np.pi / 2.0, MOST_TILT
+    return leaning_anywhere(top, toe, on_top, on_toe, width)
+
+
+@njit(borrows=True)
+def leaning_anywhere(
+    top: Course, toe: Course, on_top: float, on_toe: float, width: float
+) -> tuple[float, float]:
+    """Direction and angle as above, where the top has a corner.
+
+    The stroke may be normal to any part of the straighter edge beside it, of both if both are
+    straight, and of all directions between. Near an end where an edge begins with a side, it may
+    turn as far as that.
+    """
     middle, half = spread(top, on_top, width)
     other, wider = spread(toe, on_toe, width)
     if not half <= wider:
@@ -227,6 +236,15 @@ def allowed_turns(line: Course, at: Floats, width: Floats, gap: Floats) -> Float
     known, found = headings(line), np.empty(at.size)
     for i in range(at.size):
         found[i] = allowed_at(line, known, at[i], width[i], gap[i])
+    return found
+
+
+@njit(entry=True)
+def leans(top: Course, toe: Course, feet: Floats, width: Floats) -> Floats:
+    """(n, 2) what ``leaning_anywhere`` tells of strokes with such feet and widths."""
+    found = np.empty((width.size, 2))
+    for i in range(width.size):
+        found[i] = leaning_anywhere(top, toe, feet[i, 0], feet[i, 1], width[i])
     return found
 
 

@@ -23,6 +23,7 @@ import numpy as np
 
 from midrib.kernels.chain import Chain
 from midrib.kernels.chords import ON_TOP, Chord, Ground, ground_of, locate, shoot
+from midrib.kernels.gauging import MOST_TILT, Course, direction_on, is_straight
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
 from midrib.kernels.local import local_width
@@ -49,6 +50,7 @@ MOST_RUNGS = 2**24
 WHOLE_TURN = 2.0 * np.pi
 FAR = 24.0  # stiffness w: e^(-24 / 1.41), so little is left of what the ends of a spline do
 MOST_COPIES = 64
+MOST_OFF = 0.8 * MOST_TILT  # so that some is left for what evening out does to directions
 TAU, X, Y, NORMAL, THETA, WIDTH, GAP, LOCAL = range(8)
 MOST_LOCAL = (
     1.5  # local widths: longer strokes ask for no wider gaps; at corners of 120 degrees, all do
@@ -67,6 +69,9 @@ class Ladder(NamedTuple):
     """Rungs along a middle line; of a closed one, the last is the first again."""
 
     ground: Ground
+    top: Chain
+    toe: Chain
+    crest: Course  # the top
     line: Floats  # (m, 2) the middle line
     arc: Floats  # (m,) stations of its vertices
     rungs: Floats  # (n, 8) tau, x, y, normal, theta, width, gap, local width
@@ -137,6 +142,19 @@ def normal_at(line: Floats, arc: Floats, k: int, tau: float, half: float, is_clo
     _, ax, ay = point_at(line, arc, k, low)
     _, bx, by = point_at(line, arc, k, high)
     return np.arctan2(bx - ax, ay - by)
+
+
+@njit(borrows=True)
+def upright(top: Course, station: float, width: float, normal: float) -> float:
+    """Direction at most ``MOST_OFF`` from the top's own normal where that is straight.
+
+    Edges that converge steeply have no direction normal to both.
+    """
+    off = normal - np.pi / 2.0 - direction_on(top, station, width)
+    off -= WHOLE_TURN * np.round(off / WHOLE_TURN)
+    if not abs(off) > MOST_OFF or not is_straight(top, station, width):
+        return normal
+    return normal - (abs(off) - MOST_OFF) * np.sign(off)
 
 
 @njit(borrows=True)
@@ -255,10 +273,11 @@ def build_ladder(
     total = arc[m - 1]
     is_closed = line[0, 0] == line[m - 1, 0] and line[0, 1] == line[m - 1, 1]
     rungs, at = np.empty((256, 8)), np.empty((256, 2), np.intp)
+    crest = Course(np.column_stack((mesh.x[top.vertex], mesh.y[top.vertex])), top.arc, is_closed)
     # 1. Rungs at right angles to the line, as far apart as the last one asks for.
     tau, k, x, y = 0.0, 0, line[0, 0], line[0, 1]
     t = locate(mesh, x, y)
-    n, gap, near = 0, rule.least, np.zeros(2)
+    n, gap, near = 0, rule.least, np.zeros((2, 2))
     while n < MOST_RUNGS:
         if n + 1 >= rungs.shape[0]:
             rungs, at = with_rows(rungs, 2 * n + 2), with_rows(at, 2 * n + 2)
@@ -273,6 +292,8 @@ def build_ladder(
             bx, by = point_of(mesh, top, chord.s + gap / 2.0, is_closed)
             off = np.arctan2(bx - ax, ay - by) - normal
             normal += top_share * (off - WHOLE_TURN * np.round(off / WHOLE_TURN))
+        if chord.top_on == ON_TOP:
+            normal = upright(crest, chord.s, width, normal)
         if n > 0:
             normal += WHOLE_TURN * np.round((rungs[n - 1, NORMAL] - normal) / WHOLE_TURN)
         rungs[n, TAU], rungs[n, X], rungs[n, Y] = tau, x, y
@@ -299,7 +320,9 @@ def build_ladder(
         at[n, 0], at[n, 1] = at[0, 0], m - 2
         n += 1
     # 3. Gaps, by the chords in these directions.
-    ladder = Ladder(ground, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n))
+    ladder = Ladder(
+        ground, top, toe, crest, line, arc, with_rows(rungs[:n], n), with_rows(at[:n], n)
+    )
     measure_gaps(ladder, rule, np.full(n, np.nan))
     return ladder
 
@@ -331,7 +354,10 @@ def turn_rungs(ladder: Ladder, theta: Floats, rule: Spacing) -> Ladder:
     rungs = with_rows(ladder.rungs, ladder.rungs.shape[0])
     known = rungs[:, THETA].copy()
     rungs[:, THETA] = theta
-    turned = Ladder(ladder.ground, ladder.line, ladder.arc, rungs, ladder.at)
+    turned = Ladder(
+        ladder.ground, ladder.top, ladder.toe, ladder.crest, ladder.line, ladder.arc, rungs,
+        ladder.at,
+    )  # fmt: skip
     measure_gaps(turned, rule, known)
     return turned
 
@@ -363,7 +389,9 @@ def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) 
     strokes = Strokes(
         np.empty((n, 7)), np.empty(n, np.intp), np.empty((n, 7)), np.empty((n, 2), np.intp)
     )
-    j = 0
+    m, j, near = line.shape[0], 0, np.zeros((2, 2))
+    is_closed = line[0, 0] == line[m - 1, 0] and line[0, 1] == line[m - 1, 1]
+    mesh, top, toe = ladder.ground.mesh, ladder.top, ladder.toe
     for i in range(n):
         tau = stations[i]
         while j + 2 < rungs.shape[0] and rungs[j + 1, TAU] < tau:
@@ -376,7 +404,7 @@ def draw_turned(ladder: Ladder, stations: Floats, turns: Floats, rule: Spacing) 
         chord = shoot(ladder.ground, t, x, y, theta + turns[i])
         strokes.pivot[i, 0], strokes.pivot[i, 1], strokes.pivot[i, 2] = tau, x, y
         strokes.pivot[i, 3], strokes.pivot[i, 4] = theta, theta + turns[i]
-        local = rungs[j, LOCAL] + share * (rungs[j + 1, LOCAL] - rungs[j, LOCAL])
+        local = local_width(mesh, top, toe, near, chord, x, y, is_closed)
         strokes.pivot[i, 5] = gap_at(rule, effective(chord.width, local))
         strokes.pivot[i, 6] = local
         strokes.triangle[i] = t

@@ -15,7 +15,8 @@ place     station along the middle line, counted in rungs of the ladder, on a cl
 import numpy as np
 
 from midrib.kernels.chords import ON_TOE, ON_TOP, shoot
-from midrib.kernels.fans import Fans, Wanted, cheapest_way, middle_of_fans
+from midrib.kernels.fans import BROKEN, Fans, Wanted, cheapest_way, middle_of_fans
+from midrib.kernels.gauging import MOST_TILT, Course, direction_on, is_straight
 from midrib.kernels.jit import njit
 from midrib.kernels.ladder import (
     LOCAL,
@@ -39,7 +40,7 @@ FAN, STEP = 9, np.pi / 30.0  # directions on either side, 6 degrees each
 LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as much, relative
 NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
 FINE, GRAZE, LEAP_OF_FOOT = np.pi / 90.0, 20.0, 0.5  # steps from which on grazes cost; gaps
-FINER, LEVELS = (-1.0, 0.0, 1.0), 4  # places then, in steps that are halved as well
+FINER, LEVELS, AGAIN = (-1.0, 0.0, 1.0), 4, 3  # places then, in steps that are halved as well
 TILT_WALL, TILT_ROOM = 20_000.0, 0.01  # for each squared radian beyond the bound, but for so much
 
 
@@ -85,6 +86,18 @@ def add_grazes(fans: Fans, step: float) -> None:
                 if abs(fans.feet[i, c + 1, edge] - fans.feet[i, c, edge]) > near:
                     fans.cost[i, c] += GRAZE
                     fans.cost[i, c + 1] += GRAZE
+
+
+@njit(borrows=True)
+def beyond_upright(top: Course, station: float, width: float, theta: float, bound: Floats) -> float:
+    """Return how far a stroke leans beyond its bound: of a straight top, or else the one given."""
+    off = theta - np.pi / 2.0 - direction_on(top, station, width)
+    upright = abs(off - np.pi * np.round(off / np.pi)) - MOST_TILT
+    off = theta - bound[0]
+    anywhere = abs(off - np.pi * np.round(off / np.pi)) - bound[1]
+    if upright <= -TILT_ROOM and anywhere <= -TILT_ROOM:  # whether it is straight does not matter
+        return anywhere
+    return upright if is_straight(top, station, width) else anywhere
 
 
 @njit()
@@ -139,11 +152,12 @@ def open_fans(
             width[i, c] = effective(chord.width, local)
             gap[i, c] = gap_at(rule, width[i, c])
             cost[i, c] = turn[i, c] * turn[i, c]
-            off = theta + turn[i, c] - upright[k, 0]
-            off = abs(off - np.pi * np.round(off / np.pi))
-            over = off - upright[k, 1] + TILT_ROOM
-            if over > 0.0:  # not where there is no bound, which is NaN
-                cost[i, c] += TILT_WALL * over * over
+            over = beyond_upright(
+                ladder.crest, chord.s, width[i, c], theta + turn[i, c], upright[k]
+            )
+            if over > -TILT_ROOM:  # not where there is no bound, which is NaN
+                room = over + TILT_ROOM
+                cost[i, c] += TILT_WALL * room * room + BROKEN * (over > 0.0)
     fans = Fans(tau, calm, most, turn, feet, width, gap, cost)
     if step < FINE:
         add_grazes(fans, step)
@@ -175,7 +189,7 @@ def choose_places(
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
     allowed : (n,) angle at each rung that neighbours may turn
     upright : (n, 2) direction of the normal of an edge at each rung, and how far strokes may lean
-        from it; NaN where there is no bound
+        from it where the top is not straight; NaN where there is no bound
 
     Returns
     -------
@@ -202,7 +216,7 @@ def choose_places(
     ends = ends_of(ladder)
     # 2. Places and directions; then finer ones around these.
     half, step, apart = FAN, STEP, COARSE / 2.0
-    for level in range(LEVELS + 1):
+    for level in range(LEVELS + AGAIN + 1):
         fans = open_fans(
             ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
         )
@@ -219,7 +233,7 @@ def choose_places(
         for i in range(k):
             at, c = way[before + i] // (2 * half + 1), way[before + i] % (2 * half + 1)
             chosen[i, 0], chosen[i, 1] = found[at, 0], fans.turn[at, c]
-        if level == LEVELS:
+        if level == LEVELS + AGAIN:
             break
         m = len(FINER)
         found = np.zeros((before + k * m + after, 2))
@@ -231,7 +245,9 @@ def choose_places(
                     found[n, 0], found[n, 1] = place, chosen[i, 1]
                     n += 1
         found = found[: n + after]
-        half, step, apart = NARROW, step * NARROWER, apart / 2.0
+        half = NARROW
+        if level < LEVELS:
+            step, apart = step * NARROWER, apart / 2.0
     for i in range(chosen.shape[0]):
         chosen[i, 0] = station_at(rungs, chosen[i, 0], periods)[2]
     return chosen
