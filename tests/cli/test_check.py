@@ -42,8 +42,10 @@ def test_findings_are_a_table_and_code_1(midrib: Runner, faulty: Path) -> None:
     assert lines[2][:2] == ["topless", "refused"]
     assert lines[3][:4] == ["doubtful", "orientation", "6481004.000", "5616000.000"]
     assert "start is no vertex of the boundary" in outcome.out
-    assert lines[4][:2] == ["doubtful", "beyond"]  # as midrib hatch draws it
-    assert "findings: 3, 1 refused, 1 orientation, 1 beyond" in midrib("check", faulty).err
+    assert lines[4][:2] == ["doubtful", "unmatched"]  # as midrib hatch draws it
+    assert lines[5][:2] == ["doubtful", "beyond"]
+    counts = "findings: 4, 1 refused, 1 orientation, 1 unmatched, 1 beyond"
+    assert counts in midrib("check", faulty).err
 
 
 @pytest.mark.parametrize("ending", ["csv", "geojson", "gpkg", "parquet", "shp"])
@@ -59,7 +61,7 @@ def test_findings_go_to_a_file_with_their_places(
         assert ending == "geojson" or "CS2000/18" in str(crs_name(layer.crs))
         assert places[1] == Point(E0 + 4, N0)
     assert table.column_names == ["slope", "check", "x", "y", "reason"]
-    assert table["slope"].to_pylist() == ["topless", "doubtful", "doubtful"]
+    assert table["slope"].to_pylist() == ["topless", *["doubtful"] * 3]
     assert table["x"].to_pylist()[1] == E0 + 4
     assert midrib("check", faulty, "-o", out).code == 2
     assert midrib("check", faulty, "-o", out, "--overwrite").code == 1
@@ -69,7 +71,7 @@ def test_geojson_is_json(midrib: Runner, faulty: Path, tmp_path: Path) -> None:
     midrib("check", faulty, "-o", tmp_path / "out.json")
     features = json.loads((tmp_path / "out.json").read_text())["features"]
     checks = [feature["properties"]["check"] for feature in features]
-    assert checks == ["refused", "orientation", "beyond"]
+    assert checks == ["refused", "orientation", "unmatched", "beyond"]
 
 
 def test_history_is_checked_when_asked_for(midrib: Runner, tmp_path: Path) -> None:

@@ -37,17 +37,20 @@ def cost_of(fans: Fans, j: int, d: int, i: int, c: int, wanted: Wanted) -> float
         return np.inf
     raw = abs(np.log(ahead / plain))
     cost = 5.0 * off**2 + 200.0 * max(off - 0.08, 0.0) ** 2 + 4000.0 * max(raw - 0.2, 0.0) ** 2
+    cost += 20.0 * (raw > np.log(1.25))
     bend = fans.turn[i, c] - fans.turn[j, d]
     reach = wanted.stiffness * (fans.width[i, c] + fans.width[j, d]) / 2.0
     cost += reach**2 / (ahead * wanted.stretch * plain) * bend**2
     turn = abs(fans.calm[i] - fans.calm[j] + bend) / 0.35
     cost += 0.35**2 * (200.0 * max(turn - 0.9, 0.0) ** 2 + 20_000.0 * max(turn - 0.985, 0.0) ** 2)
+    cost += 20.0 * (turn > 1.0)
     for foot in (fans.feet[i, c] - fans.feet[j, d]) / plain:
         if foot <= 0.0:
             return np.inf
         cost += 60.0 * min(max(0.45 - foot, foot - 1.5, 0.0), 0.3) ** 2
         cost += 2000.0 * max(0.28 - foot, min(foot - 1.7, 0.3), 0.0) ** 2
         cost += 400.0 * max(np.log(foot / 2.0), 0.0) ** 3
+        cost += 20.0 * (foot < 0.25 or foot > 1.75)
     return float(cost)
 
 
