@@ -7,7 +7,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely import MultiPoint, Point, Polygon, affinity, box
+from shapely import LineString, MultiPoint, Point, Polygon, affinity, box
 
 from midrib import collapse, skeleton
 from midrib.curves.straight_skeleton import (
@@ -82,12 +82,39 @@ def test_rectangle_has_its_ridge(length: float, width: float) -> None:
     assert np.unique(found, axis=0) == pytest.approx(np.unique(expected, axis=0))
 
 
-@pytest.mark.parametrize("n", [3, 4, 5, 8, 17, 64, 360])
+@pytest.mark.parametrize(
+    "n", [3, 4, 5, 8, 17, 64, 360, 1000, 1150, 1175, 1200, 1500, 1900, 2048, 2500, 3000]
+)
 def test_regular_polygon_meets_in_its_centre(n: int) -> None:
     turn = 2.0 * np.pi * np.arange(n) / n + 0.3
     found = roof_of(Polygon(np.column_stack([np.cos(turn), np.sin(turn)])))
     assert nodes_of(found) == pytest.approx(np.array([[0.0, 0.0, np.cos(np.pi / n)]]), abs=1e-9)
     assert len(found.ridges) == n
+
+
+@pytest.mark.parametrize("turn", [0.0, 33.7])
+@pytest.mark.parametrize("origin", [(0.0, 0.0), FAR])
+@pytest.mark.parametrize("segments", [16, 300, 401, 600])
+@pytest.mark.parametrize(
+    "middle",
+    [LineString([(0, 0), (50, 0)]), box(0, 0, 60, 30), Polygon([(0, 0), (30, 0), (0, 40)])],
+    ids=["capsule", "rounded_box", "rounded_triangle"],
+)
+def test_round_corners_meet_in_their_centres(
+    middle: Any, segments: int, origin: tuple[float, float], turn: float
+) -> None:
+    """A quarter of a circle becomes one corner at one time; what is inside goes on from there."""
+    moved = affinity.translate(affinity.rotate(middle, turn, origin=(0, 0)), *origin)
+    found = roof_of(moved.buffer(10, quad_segs=segments))
+    corners, slack = shapely.get_coordinates(moved), 10 * (np.pi / segments) ** 2 + 1e-6
+    nodes = nodes_of(found)
+    away = np.hypot(*(nodes[:, None, :2] - corners).T)
+    assert away.min(axis=1).max() <= slack
+    is_corner = away.min(axis=0) <= slack
+    assert nodes[is_corner, 2] == pytest.approx(10, abs=slack)
+    if middle.geom_type == "Polygon":
+        inner = nodes_of(roof_of(moved))[:, 2].max()
+        assert found.time.max() == pytest.approx(10 + inner, abs=slack)
 
 
 def test_corner_of_two_arms_in_closed_form() -> None:

@@ -1,5 +1,6 @@
 """Networks: crossings, junctions, loops and dead ends, in closed form and as relations."""
 
+import itertools
 from collections import Counter
 from collections.abc import Sequence
 from typing import Any
@@ -79,6 +80,44 @@ def test_two_roads_cross_in_one_node(angle: float) -> None:
     assert ways_of(found) == {4: 1, 1: 4}
     assert off(found, MultiLineString([LineString([(-20, 0), (20, 0)]), other])) < 1e-9
     assert [len(line.coords) for line in found.geoms] == [2] * 4
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("apart", [1e-15, 1e-14, 1e-13])
+def test_vertices_next_to_each_other_are_no_crossing_without_a_radius(apart: float) -> None:
+    """Between them straight skeletons have junctions on the boundary, and branches of no length."""
+    arms = [LineString([(0, 0), (50, 0)]), LineString([(25, 0), (25, 40)])]
+    bent = [LineString([(0, 0), (50, 0), (80, 40)]), LineString([(10, -30), (30, 40)])]
+    plans = [
+        shapely.union_all(shapely.buffer(arms, 3, quad_segs=4)),
+        shapely.union_all(shapely.buffer(bent, [5, 3], quad_segs=2)),
+    ]
+    found = 0
+    for plan, seed in itertools.product(plans, range(45)):
+        rng = np.random.default_rng(seed)
+        ring = shapely.get_coordinates(plan.exterior)[:-1]
+        at, turn = rng.integers(0, len(ring), 5), rng.uniform(0.0, 2.0 * np.pi, 5)
+        off = 50.0 * apart * np.column_stack([np.cos(turn), np.sin(turn)])
+        area = Polygon(np.insert(ring, at, ring[at] + off, axis=0))
+        if area.is_valid:
+            # A skeleton may still be refused; that is a reason, and no batch ends for it.
+            lines, _ = network([area], "straight-skeleton", on_error="report")
+            assert lines[0] is None or meets_at_nodes_only(lines[0])
+            found += lines[0] is not None
+    assert found > 10
+
+
+@pytest.mark.parametrize("origin", [(0.0, 0.0), (650000.0, 5480000.0)])
+@pytest.mark.parametrize("seed", range(15))
+def test_sampled_lines_do_not_turn_back(seed: int, origin: Place) -> None:
+    """Of a street of parallel sides samples are on one circle by four, but for rounding."""
+    rng, streets = np.random.default_rng(seed), []
+    for turn in np.radians(rng.choice([0.0, 90.0, 33.0], 8)):
+        (x, y), length = rng.uniform(0.0, 200.0, 2), rng.uniform(40.0, 200.0)
+        end = (x + length * np.cos(turn), y + length * np.sin(turn))
+        streets.append(road((x, y), end, width=float(rng.choice([6.0, 10.0, 16.0]))))
+    plan = max(shapely.get_parts(shapely.union_all(streets)), key=shapely.area)
+    assert meets_at_nodes_only(network(affinity.translate(plan, *origin), "point-voronoi"))
 
 
 @pytest.mark.parametrize("width", [1.0, 2.0, 3.5])

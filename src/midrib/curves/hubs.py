@@ -21,6 +21,7 @@ __all__ = ["bundle_of", "hub_of", "led_on"]
 WEAK = 0.02  # of the larger eigenvalue: arms within 8 degrees do not say how far their lines meet
 LED_ON = 4  # times at most, each to the hub of the last one
 MOST_TURN = np.radians(45.0)  # of an arm that is led on
+LEAST = 2.0**-52  # of the extent: what a disc weighs at least
 SETTLED = 2.0**-20  # of the radius: where arms are straight the hub does not move again
 HOLDS = (0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0)  # what the middle weighs, of the weight of arms
 ONE_ROAD = np.radians(30.0)  # two arms that turn less into each other may be one road
@@ -55,7 +56,9 @@ def hub_of(net: Net, crossing: Crossing, arms: list[Arm]) -> Floats:
     n = crossing.members.size
     places = np.concatenate([net.points[rows], *(arm.reach[0] for arm in arms)])
     radius = np.concatenate([net.radius[rows], *(arm.reach[1] for arm in arms)])
-    middle = np.average(places[:n], axis=0, weights=radius[:n])
+    # Between vertices next to each other discs may have no radius; their middle counts then.
+    weights = np.maximum(radius[:n], LEAST * np.ptp(net.points))
+    middle = np.average(places[:n], axis=0, weights=weights)
     bundle = bundle_of(arms)
     for hold in HOLDS:
         hub = middle
@@ -83,7 +86,8 @@ def led_on(bundle: Bundle, hub: Floats) -> Lines:
     bend = bundle.bends * (MOST_TURN / np.maximum(turn, MOST_TURN)) * length
     direction = bundle.directions + bend
     points = bundle.cuts + (bundle.directions + bend / 2.0) * length
-    unit = direction / np.hypot(direction[:, 0], direction[:, 1])[:, None]
+    size = np.hypot(direction[:, 0], direction[:, 1])[:, None]
+    unit = direction / np.maximum(size, np.finfo(np.float64).tiny)  # a point leads nowhere
     return Lines(points, unit, bundle.weights)
 
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from midrib.curves.arms import Crossing, Net, arms_of
 from midrib.curves.hubs import bundle_of, hub_of, led_on
-from midrib.types import Ints
+from midrib.types import Floats, Ints
 
 __all__ = ["crossings_of"]
 
@@ -43,7 +43,8 @@ def crossings_of(net: Net, overlap: float) -> list[Crossing]:
     found = {int(v): Crossing(np.array([v]), NONE) for v in np.flatnonzero(net.degree >= JUNCTION)}
     is_between = (net.degree[ends] >= JUNCTION).all(axis=1) & (ends[:, 0] != ends[:, 1])
     between = np.flatnonzero(is_between)
-    share = np.array([net.stretch(int(b), 0).length / net.radius[ends[b]].sum() for b in between])
+    length = np.array([net.stretch(int(b), 0).length for b in between])
+    share = in_radii(length, net.radius[ends[between]].sum(axis=1))
     for k in np.argsort(share, kind="stable"):
         if share[k] > FARTHER * overlap:
             break
@@ -61,7 +62,14 @@ def farthest_apart(net: Net, one: Crossing, other: Crossing) -> float:
     """Greatest distance between junctions of two crossings, in sums of their radii."""
     away = net.points[one.members][:, None] - net.points[other.members][None]
     reach = net.radius[one.members][:, None] + net.radius[other.members][None]
-    return float((np.hypot(away[..., 0], away[..., 1]) / reach).max())
+    return float(in_radii(np.hypot(away[..., 0], away[..., 1]), reach).max())
+
+
+def in_radii(length: Floats, radii: Floats) -> Floats:
+    """Lengths in radii: without a radius, everything else is infinitely far away."""
+    far = np.where(length > 0.0, np.inf, 0.0)
+    found: Floats = np.divide(length, radii, out=far, where=radii > 0.0)
+    return found
 
 
 def meets_in_point(net: Net, crossing: Crossing, ends: Ints) -> bool:

@@ -64,6 +64,8 @@ def network_lines(
     list of (n, 2) arrays
         Points of each line; lines that meet do so in equal points at their ends.
     """
+    chief = chiefs_of(graph)
+    graph, fixed = contracted(graph, chief), chief[fixed]
     site, net = site_of(area, scale), net_of(graph, scale)
     ends = net.ends()
     changes = [crossing_change(net, c, ends, site) for c in crossings_of(net, overlap)]
@@ -90,6 +92,18 @@ def network_lines(
         if not (found := blamed(changes, bad)):
             return lines
         changes = [change for k, change in enumerate(changes) if k not in found]
+
+
+def chiefs_of(graph: Graph) -> Ints:
+    """For each point (n,) the first one of those that edges without length join it with."""
+    is_short = (graph.points[graph.edges[:, 0]] == graph.points[graph.edges[:, 1]]).all(axis=1)
+    return components(len(graph.points), graph.edges[is_short])
+
+
+def contracted(graph: Graph, chief: Ints) -> Graph:
+    """Graph without edges of no length: they have no direction, and are no lines."""
+    edges = chief[graph.edges]
+    return graph._replace(edges=edges[edges[:, 0] != edges[:, 1]])
 
 
 def blamed(changes: list[Change], bad: set[int]) -> set[int]:

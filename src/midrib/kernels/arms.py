@@ -170,8 +170,9 @@ def arm_from(points: Floats, radius: Floats, rows: Ints, end: int, members: Ints
     size = disc_at(at, arc, points, radius, way)[2]
     far = min(at + ALONG * size, arc[-1])
     weight = (far - at) / ALONG
-    if far == at:  # the whole branch is in the discs
-        at, far, weight = 0.0, at, WEAK * size
+    if far == at:  # the whole branch is in the discs, or they are points
+        at, far = 0.0, at if at > 0.0 else arc[-1]
+        weight = WEAK * (size if size > 0.0 else far)
     ax, ay, _ = disc_at(at, arc, points, radius, way)
     bx, by, _ = disc_at((at + far) / 2.0, arc, points, radius, way)
     cx, cy, _ = disc_at(far, arc, points, radius, way)

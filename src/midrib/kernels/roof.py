@@ -28,7 +28,7 @@ __all__ = ["SLACK", "Faces", "faces_of", "ridges_of"]
 
 SLACK = 1e-9  # of the extent, which is 1: by so much a sound skeleton may be off
 ALONG = 1e-6  # along an edge: a node between faces that nearly meet flat is not known better
-SAME = 16.0 * NEAR  # nodes as near as this are one
+SAME = 16.0 * NEAR  # radians: edges that turn by no more are one
 TURNS = 2
 
 
@@ -122,6 +122,9 @@ def first_of(chief: Ints, i: int) -> int:
 def ridges_of(mesh: Mesh, roof: Roof) -> Ints:
     """Arcs that are seen, as rows of nodes: those of no length go, their nodes become one.
 
+    Where edges turn by little, what happens at one time happens by rounding as far apart as that
+    time is from certain; so no length is what is within the slack of a sound skeleton.
+
     So do arcs from vertices in the middle of straight edges: their two faces are one plane.
     """
     node, arc = roof.node, roof.arc
@@ -137,7 +140,7 @@ def ridges_of(mesh: Mesh, roof: Roof) -> Ints:
     chief = np.arange(node.shape[0])
     for k in range(arc.shape[0]):
         i, j = arc[k, 0], arc[k, 1]
-        if abs(node[i, 0] - node[j, 0]) + abs(node[i, 1] - node[j, 1]) <= SAME and i >= faces:
+        if abs(node[i, 0] - node[j, 0]) + abs(node[i, 1] - node[j, 1]) <= SLACK and i >= faces:
             chief[first_of(chief, max(i, j))] = first_of(chief, min(i, j))
     ridges, count = np.empty((arc.shape[0], 2), np.intp), 0
     for k in range(arc.shape[0]):

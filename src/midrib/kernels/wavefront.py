@@ -51,6 +51,8 @@ __all__ = [
 EDGE, SPLIT, FLIP = 0, 1, 2  # an edge has no length; a vertex meets an edge; or meets a spoke
 NEAR = 2.0**-40  # of the extent, which is 1: what is as near as this is together
 FACING = 2.0**-30  # radians; edges that face each other meet all along, but for rounding
+POINT = 2.0**-26  # of the extent: what shrinks to a point is off by as much, a double root of 1e-16
+ROUNDING = 2.0**-51  # of the product of two sides: so far rounding puts an area off
 APART = 2.0**-20  # radians; edges turned by less say nothing about where they meet
 NO, BACK, ON = 0, 1, 2  # which edge a vertex rushes along: none, the one before it, the one after
 AT_ONCE = -1.0
@@ -225,7 +227,12 @@ def longest_side(w: Wavefront, t: int, now: float) -> tuple[int, float, float]:
 
 @njit(borrows=True)
 def flattening(w: Wavefront, t: int, now: float) -> tuple[float, int, int]:
-    """When a triangle of three spokes is flat, and its longest side then."""
+    """When a triangle of three spokes is flat, and its longest side then.
+
+    One that shrinks to a point is flat at a double root only, before and after which it is not
+    turned over: rounding tells neither when nor which side is longest, and swaps for its sake would
+    not end. The edges around it go at that time, and it with them.
+    """
     a, b, c = w.tri[3 * t], w.tri[3 * t + 1], w.tri[3 * t + 2]
     ax, ay = place(w, a, now)
     bx, by = place(w, b, now)
@@ -233,10 +240,15 @@ def flattening(w: Wavefront, t: int, now: float) -> tuple[float, int, int]:
     px, py, qx, qy = bx - ax, by - ay, cx - ax, cy - ay
     pu, pv, qu, qv = w.u[b] - w.u[a], w.v[b] - w.v[a], w.u[c] - w.u[a], w.v[c] - w.v[a]
     slope = px * qv - py * qu + pu * qy - pv * qx
-    at = now + first_fall(pu * qv - pv * qu, slope, px * qy - py * qx)
+    curve, area = pu * qv - pv * qu, px * qy - py * qx
+    at = first_fall(curve, slope, area)
     if at == np.inf:
         return at, 3 * t, FLIP
-    return at, longest_side(w, t, at)[0], FLIP
+    side, longest, _ = longest_side(w, t, now + at)
+    slack = NEAR * longest + ROUNDING * length(px, py) * length(qx, qy)
+    if longest <= POINT and first_fall(curve, slope, area + slack) == np.inf:
+        return np.inf, side, FLIP
+    return now + at, side, FLIP
 
 
 @njit(borrows=True)
