@@ -99,9 +99,9 @@ def area_of_one(area: object, name: str) -> Polygon:
     if isinstance(area, MultiPolygon) and len(area.geoms) == 1:
         area = area.geoms[0]
     if not isinstance(area, Polygon):
-        kind = "None" if area is None else f"a {getattr(area, 'geom_type', type(area).__name__)}"
+        kind = getattr(area, "geom_type", type(area).__name__)
         parts = f" of {len(area.geoms)} parts" if isinstance(area, MultiPolygon) else ""
-        msg = f"{name} is {kind}{parts}, expected a Polygon"
+        msg = f"{name} is a {kind}{parts}, expected a Polygon"
         raise GeometryTypeError(msg)
     if area.is_empty:
         msg = f"{name} is empty"
