@@ -89,7 +89,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
         return write_rows(path, levels)
     target = format_of(path)
     if target.is_drawing:
-        write_axis_dxf(path, axis.points, axis.unit)
+        write_axis_dxf(path, axis.points, axis.unit, axis.breaks)
         return []
     if not target.has_layers:
         return write_layer(path, levels)
@@ -97,7 +97,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
 
 
 def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
-    """Layers ``levels`` (points) and ``axis`` (one line)."""
+    """Layers ``levels`` (points) and ``axis`` (one line, of several parts where it is broken)."""
     names = axis.levels.dtype.names or ()
     columns = {name: pa.array(axis.levels[name], from_pandas=True) for name in names}
     points = np.empty(len(axis.levels), dtype=object)
@@ -112,7 +112,7 @@ def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
         "sections": pa.array([axis.shape.text]),
         **{name: pa.array([getattr(s, name)], from_pandas=True) for name in s._fields},
     }
-    return levels, Features("axis", pa.table(about), line, "geom", "LineString Z", axis.crs)
+    return levels, Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
 
 
 def chosen_options(
