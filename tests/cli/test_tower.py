@@ -82,6 +82,27 @@ def test_pdf_has_all_pages(scan: Path, midrib: Runner, tmp_path: Path) -> None:
     assert content.count(b"/Type /Page\n") + content.count(b"/Type /Page ") == 3
 
 
+def test_every_report_is_written(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    places = [tmp_path / name for name in ("a.html", "a.pdf", "b.html")]
+    reports = [word for path in places for word in ("--report", path)]
+    outcome = midrib("tower", scan, *reports, "--step", "1m")
+    assert outcome.code == 0, outcome.err
+    assert sorted(tmp_path.iterdir()) == places
+    assert places[1].read_bytes().startswith(b"%PDF")
+    assert places[0].read_bytes() == places[2].read_bytes()
+    for path in places:
+        assert f"written to {path}" in outcome.err
+
+
+def test_no_file_is_written_if_one_report_cannot_be(
+    scan: Path, midrib: Runner, tmp_path: Path
+) -> None:
+    outcome = midrib("tower", scan, "--report", tmp_path / "a.html", "--report", tmp_path / "a.txt")
+    assert outcome.code == 2
+    assert "ends in '.txt', expected .html or .pdf" in outcome.err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_flagged_levels_give_exit_code_one(midrib: Runner, tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", dirty().points())
     outcome = midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.csv")

@@ -31,13 +31,13 @@ class Places(NamedTuple):
     """The files of one run."""
 
     source: Path
-    report: Path | None
+    reports: tuple[Path, ...]
     out: tuple[Path, ...]
 
     @property
     def all(self) -> list[Path]:
         """Every file that is written."""
-        return [*([] if self.report is None else [self.report]), *self.out]
+        return [*self.reports, *self.out]
 
     def check(self, *, overwrite: bool) -> None:
         """Refuse places that cannot be written to, before any work is done.
@@ -49,9 +49,9 @@ class Places(NamedTuple):
         MissingDependencyError
             If a library that a format needs is not installed.
         """
-        if self.report is not None:
-            check_report(self.report)
-            check_free([self.report], "--report", overwrite=overwrite)
+        for path in self.reports:
+            check_report(path)
+        check_free(self.reports, "--report", overwrite=overwrite)
         for path in self.out:
             if format_of(path).is_drawing:
                 check_library("ezdxf", "writing DXF", "dxf")
@@ -68,7 +68,7 @@ class Places(NamedTuple):
         notes: list[str] = []
         for path in self.all:
             with staged(path.parent) as stage:
-                if path == self.report:
+                if path in self.reports:
                     write_report(
                         axis,
                         stage / path.name,
