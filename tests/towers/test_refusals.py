@@ -1,5 +1,7 @@
 """Clouds that are no tower, or hard to read: one sentence, or an axis."""
 
+import re
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -46,6 +48,32 @@ def test_a_tower_that_lies_is_refused(order: list[int], sentence: str) -> None:
         tower_axis(CONE.points()[:, order])
     assert sentence in str(caught.value)
     assert "inf" not in str(caught.value)
+
+
+@pytest.mark.parametrize("per_metre", [100.0, 1000.0])
+def test_heights_that_no_tower_has_are_refused_before_memory_is_asked_for(
+    per_metre: float,
+) -> None:
+    points = CONE.points()
+    tracemalloc.start()
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(per_metre * points)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    height = 40 * per_metre
+    found = re.search(r"heights that differ by ([\d,]+) m, expected", str(caught.value))
+    assert found is not None
+    assert int(found[1].replace(",", "")) == pytest.approx(height, rel=0.01)
+    assert "unit= (--unit mm) may be missing" in str(caught.value)
+    assert most < 50e6
+    assert tower_axis(per_metre * points, unit=per_metre).is_answered.all()
+
+
+@pytest.mark.parametrize("unit", [1.0, 1000.0])
+def test_more_levels_than_anyone_needs_are_refused(unit: float) -> None:
+    sentence = r"step is 1e-06 m, expected at most 100,000 levels in \d\d\.\d\d m of height"
+    with pytest.raises(ParameterError, match=sentence):
+        tower_axis(unit * CONE.points(), step=1e-6 * unit, unit=unit)
 
 
 @pytest.mark.parametrize("mode", ["joint", "fan", "paper"])
