@@ -44,6 +44,7 @@ MOST_PASSES = 3
 LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 MOST_LEVELS = 100_000  # a centimetre apart in the highest tower
+MOST_LEAN = 45.0  # degrees: more, and the axis reaches farther sideways than up
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
 
@@ -171,6 +172,7 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     check_spacing(sample, cloud.types, unit, cloud.name)
     check_height(sample, options, cloud.name)
     rough = shape_found(sample, options)
+    check_lean(rough, sample, unit)
     heights = rough.frame.inwards(sample)[:, 2]
     low, high = np.percentile(heights, [0.2, 99.8])
     margin = BEYOND * (high - low)
@@ -263,6 +265,25 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
         )
         raise ParameterError(msg)
     return found
+
+
+def check_lean(rough: Rough, sample: "Floats", unit: float) -> None:
+    """Refuse what looks like a tower but reaches farther sideways than up.
+
+    Raises
+    ------
+    ParameterError
+        If the rough axis does.
+    """
+    lean = float(np.degrees(np.arccos(min(abs(rough.frame.turn[2, 2]), 1.0))))
+    if lean > MOST_LEAN:
+        x, y, z = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+        msg = (
+            f"no tower was found: what looks like one leans by {lean:.0f}° from z, in a cloud that "
+            f"reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z), expected a tower that stands "
+            "along z; is another coordinate the height?"
+        )
+        raise ParameterError(msg)
 
 
 def on_shell(rough: Rough, sample: "Floats", unit: float) -> int:
