@@ -59,12 +59,48 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert not [path for path in tmp_path.iterdir() if path not in places]
 
 
+def test_files_do_not_bridge_what_was_not_seen(midrib: Runner, tmp_path: Path) -> None:
+    points = CONE.points()
+    np.save(tmp_path / "a.npy", points[(points[:, 2] < 12.0) | (points[:, 2] > 25.0)])
+    outs = [word for name in ("a.dxf", "a.gpkg") for word in ("-o", tmp_path / name)]
+    assert midrib("tower", tmp_path / "a.npy", "--step", "0.5m", *outs).code == 1
+    drawn: Any = readfile(tmp_path / "a.dxf").modelspace().query("POLYLINE")
+    lines = [[tuple(v.dxf.location) for v in line.vertices] for line in drawn]
+    _, _, (axis,) = read_all(tmp_path / "a.gpkg", "axis")
+    assert axis.geom_type == "MultiLineString"
+    for found in (lines, [list(part.coords) for part in axis.geoms]):
+        assert len(found) == 2
+        rises = np.concatenate([np.diff(np.array(line)[:, 2]) for line in found])
+        assert rises == pytest.approx(0.5)
+
+
 def test_pdf_has_all_pages(scan: Path, midrib: Runner, tmp_path: Path) -> None:
     outcome = midrib("tower", scan, "--report", tmp_path / "a.pdf", "--step", "1m", "-q")
     assert (outcome.code, outcome.out) == (0, ""), outcome.err
     content = (tmp_path / "a.pdf").read_bytes()
     assert content.startswith(b"%PDF")
     assert content.count(b"/Type /Page\n") + content.count(b"/Type /Page ") == 3
+
+
+def test_every_report_is_written(scan: Path, midrib: Runner, tmp_path: Path) -> None:
+    places = [tmp_path / name for name in ("a.html", "a.pdf", "b.html")]
+    reports = [word for path in places for word in ("--report", path)]
+    outcome = midrib("tower", scan, *reports, "--step", "1m")
+    assert outcome.code == 0, outcome.err
+    assert sorted(tmp_path.iterdir()) == places
+    assert places[1].read_bytes().startswith(b"%PDF")
+    assert places[0].read_bytes() == places[2].read_bytes()
+    for path in places:
+        assert f"written to {path}" in outcome.err
+
+
+def test_no_file_is_written_if_one_report_cannot_be(
+    scan: Path, midrib: Runner, tmp_path: Path
+) -> None:
+    outcome = midrib("tower", scan, "--report", tmp_path / "a.html", "--report", tmp_path / "a.txt")
+    assert outcome.code == 2
+    assert "ends in '.txt', expected .html or .pdf" in outcome.err
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_flagged_levels_give_exit_code_one(midrib: Runner, tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 """Clouds that are no tower, or hard to read: one sentence, or an axis."""
 
+import re
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +12,9 @@ from midrib import tower_axis
 from midrib.errors import ParameterError
 from midrib.figures.tower_report import summary_lines
 from midrib.towers.cloud import check_spacing
+from midrib.towers.simulate import Scan, Tower
 from midrib.types import Floats
-from tests.towers.scans import CONE
+from tests.towers.scans import CONE, dirty, offsets
 
 
 def flat() -> Floats:
@@ -46,6 +49,77 @@ def test_a_tower_that_lies_is_refused(order: list[int], sentence: str) -> None:
         tower_axis(CONE.points()[:, order])
     assert sentence in str(caught.value)
     assert "inf" not in str(caught.value)
+
+
+@pytest.mark.parametrize("unit", [1.0, 1000.0])
+@pytest.mark.parametrize("order", [[0, 2, 1], [2, 1, 0]])
+def test_how_a_tower_lies_is_told(order: list[int], unit: float) -> None:
+    points = dirty().points()[:, order]
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(unit * points, unit=unit)
+    found = re.search(
+        r"leans by (\d+)° from z, in a cloud that reaches ([\d.]+) m by ([\d.]+) m by ([\d.]+) m",
+        str(caught.value),
+    )
+    assert found is not None
+    lean, *reach = map(float, found.groups())
+    assert lean == pytest.approx(90.0, abs=1.0)
+    assert int(np.argmax(reach)) == order.index(2)
+    assert max(reach) == pytest.approx(40.0, abs=0.3)
+
+
+@pytest.mark.parametrize("height", [3.0, 8.0])
+def test_a_tank_that_is_wider_than_it_is_high_stands(height: float) -> None:
+    tank = Tower(height=height, base_radius=6.0, top_radius=6.0, lean=0.01)
+    scan = Scan(tank, noise=(0.002, 0.004), count=60_000, seed=1)
+    axis = tower_axis(scan.points())
+    assert axis.is_answered.all()
+    assert np.max(offsets(axis, scan)) < 0.002
+
+
+@pytest.mark.parametrize("lean", [20.0, 40.0, 50.0])
+def test_a_tower_may_lean_by_half_a_right_angle(lean: float) -> None:
+    turn = np.radians(lean)
+    x, y, z = CONE.points().T
+    turned = np.column_stack(
+        [np.cos(turn) * x + np.sin(turn) * z, y, np.cos(turn) * z - np.sin(turn) * x]
+    )
+    if lean > 45.0:
+        with pytest.raises(ParameterError, match="leans by 50° from z"):
+            tower_axis(turned)
+    else:
+        assert tower_axis(turned).summary.slope == pytest.approx(1000.0 * np.tan(turn), rel=0.02)
+
+
+def test_a_step_without_a_level_is_refused() -> None:
+    with pytest.raises(ParameterError, match="at steps of 500 m, expected a smaller step"):
+        tower_axis(CONE.points() + np.array((0.0, 0.0, 100.0)), step=500.0)
+
+
+@pytest.mark.parametrize("per_metre", [100.0, 1000.0])
+def test_heights_that_no_tower_has_are_refused_before_memory_is_asked_for(
+    per_metre: float,
+) -> None:
+    points = CONE.points()
+    tracemalloc.start()
+    with pytest.raises(ParameterError) as caught:
+        tower_axis(per_metre * points)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    height = 40 * per_metre
+    found = re.search(r"heights that differ by ([\d,]+) m, expected", str(caught.value))
+    assert found is not None
+    assert int(found[1].replace(",", "")) == pytest.approx(height, rel=0.01)
+    assert "unit= (--unit mm) may be missing" in str(caught.value)
+    assert most < 50e6
+    assert tower_axis(per_metre * points, unit=per_metre).is_answered.all()
+
+
+@pytest.mark.parametrize("unit", [1.0, 1000.0])
+def test_more_levels_than_anyone_needs_are_refused(unit: float) -> None:
+    sentence = r"step is 1e-06 m, expected at most 100,000 levels in \d\d\.\d\d m of height"
+    with pytest.raises(ParameterError, match=sentence):
+        tower_axis(unit * CONE.points(), step=1e-6 * unit, unit=unit)
 
 
 @pytest.mark.parametrize("mode", ["joint", "fan", "paper"])

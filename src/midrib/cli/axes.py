@@ -31,13 +31,13 @@ class Places(NamedTuple):
     """The files of one run."""
 
     source: Path
-    report: Path | None
+    reports: tuple[Path, ...]
     out: tuple[Path, ...]
 
     @property
     def all(self) -> list[Path]:
         """Every file that is written."""
-        return [*([] if self.report is None else [self.report]), *self.out]
+        return [*self.reports, *self.out]
 
     def check(self, *, overwrite: bool) -> None:
         """Refuse places that cannot be written to, before any work is done.
@@ -49,9 +49,9 @@ class Places(NamedTuple):
         MissingDependencyError
             If a library that a format needs is not installed.
         """
-        if self.report is not None:
-            check_report(self.report)
-            check_free([self.report], "--report", overwrite=overwrite)
+        for path in self.reports:
+            check_report(path)
+        check_free(self.reports, "--report", overwrite=overwrite)
         for path in self.out:
             if format_of(path).is_drawing:
                 check_library("ezdxf", "writing DXF", "dxf")
@@ -68,7 +68,7 @@ class Places(NamedTuple):
         notes: list[str] = []
         for path in self.all:
             with staged(path.parent) as stage:
-                if path == self.report:
+                if path in self.reports:
                     write_report(
                         axis,
                         stage / path.name,
@@ -89,7 +89,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
         return write_rows(path, levels)
     target = format_of(path)
     if target.is_drawing:
-        write_axis_dxf(path, axis.points, axis.unit)
+        write_axis_dxf(path, axis.points, axis.unit, axis.breaks)
         return []
     if not target.has_layers:
         return write_layer(path, levels)
@@ -97,7 +97,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
 
 
 def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
-    """Layers ``levels`` (points) and ``axis`` (one line)."""
+    """Layers ``levels`` (points) and ``axis`` (one line, of several parts where it is broken)."""
     names = axis.levels.dtype.names or ()
     columns = {name: pa.array(axis.levels[name], from_pandas=True) for name in names}
     points = np.empty(len(axis.levels), dtype=object)
@@ -112,7 +112,7 @@ def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
         "sections": pa.array([axis.shape.text]),
         **{name: pa.array([getattr(s, name)], from_pandas=True) for name in s._fields},
     }
-    return levels, Features("axis", pa.table(about), line, "geom", "LineString Z", axis.crs)
+    return levels, Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
 
 
 def chosen_options(

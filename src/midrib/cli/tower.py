@@ -12,7 +12,7 @@ __all__ = ["tower"]
 
 def tower(
     source: cli.PointsIn,
-    report_file: cli.TowerReport = None,
+    reports: cli.TowerReport = None,
     out: cli.TowerOut = None,
     mode: cli.TowerModeOption = TowerMode.joint,
     shape: cli.TowerShapeOption = TowerShape.auto,
@@ -38,7 +38,7 @@ def tower(
     from midrib.towers.pipeline import axis_of
     from midrib.towers.tolerance import tolerance_from
 
-    places = Places(source, report_file, tuple(out or ()))
+    places = Places(source, tuple(reports or ()), tuple(out or ()))
     places.check(overwrite=overwrite)
     allowed = None if tolerance is None else tolerance_from(tolerance)
     cloud = open_cloud(source)

@@ -49,14 +49,21 @@ def deviations(axis: "TowerAxis", name: str) -> "Floats":
     return millimetres(axis.levels[name] - base, axis)
 
 
+def broken(axis: "TowerAxis", column: "Floats") -> "Floats":
+    """Values of the levels with a centre, with NaN wherever the axis is broken."""
+    found: Floats = np.insert(column[axis.is_answered], axis.breaks, np.nan)
+    return found
+
+
 def plot_deviation(
     axes: "Axes", axis: "TowerAxis", name: str, tolerance: "Tolerance | None"
 ) -> None:
     """Plot the deviation of x or y by height, with its 95 % interval and the tolerance."""
     z, off = height_of(axis), deviations(axis, name)
     half = NORMAL * millimetres(axis.levels[f"sigma_{name}"], axis)
-    axes.fill_betweenx(z, off - half, off + half, color=BAND, lw=0.0, label="95 % interval")
-    axes.plot(off, z, color=AXIS, lw=0.35 / POINT, label="axis")
+    up, left, right = (broken(axis, column) for column in (z, off - half, off + half))
+    axes.fill_betweenx(up, left, right, color=BAND, lw=0.0, label="95 % interval")
+    axes.plot(broken(axis, off), up, color=AXIS, lw=0.35 / POINT, label="axis")
     flagged = (axis.levels["flag"] != "") & np.isfinite(off)
     if flagged.any():
         axes.plot(off[flagged], z[flagged], "o", color=FLAG, ms=1.6, mew=0.0, label="flagged")
@@ -115,7 +122,7 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     x, y = deviations(axis, "x"), deviations(axis, "y")
     known = np.isfinite(x)
     z = height_of(axis)
-    axes.plot(x[known], y[known], color=AXIS, lw=0.3 / POINT)
+    axes.plot(broken(axis, x), broken(axis, y), color=AXIS, lw=0.3 / POINT)
     extent = max(float(np.ptp(x[known])), float(np.ptp(y[known]))) if known.any() else 1.0
     if tolerance is not None and known.any():
         height = axis.levels["z"][known][-1] - axis.summary.low

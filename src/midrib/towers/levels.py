@@ -68,9 +68,8 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     if not z.size:
         low, high = world[0, 2] / unit, world[-1, 2] / unit
         msg = (
-            f"no tower was found: what looks like one has no level between z = {low:.2f} m and "
-            f"{high:.2f} m at steps of {step / unit:g} m, expected a tower that stands along z; "
-            "is another coordinate the height?"
+            f"there is no level between z = {low:.2f} m and {high:.2f} m, where the tower is, at "
+            f"steps of {step / unit:g} m, expected a smaller step"
         )
         raise ParameterError(msg)
     levels = np.zeros(z.size, dtype=LEVELS)

@@ -43,6 +43,8 @@ MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the nois
 MOST_PASSES = 3
 LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
+MOST_LEVELS = 100_000  # a centimetre apart in the highest tower
+MOST_LEAN = 45.0  # degrees: more, and the axis reaches farther sideways than up
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
 
@@ -168,8 +170,9 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     sample, came = sample_of(track(cloud.some(SAMPLE), "sampling"), SAMPLE, cloud.name)
     labels, sample = labels_in(sample), np.ascontiguousarray(sample[:, :3])
     check_spacing(sample, cloud.types, unit, cloud.name)
-    check_height(sample, unit, cloud.name)
+    check_height(sample, options, cloud.name)
     rough = shape_found(sample, options)
+    check_lean(rough, sample, unit)
     heights = rough.frame.inwards(sample)[:, 2]
     low, high = np.percentile(heights, [0.2, 99.8])
     margin = BEYOND * (high - low)
@@ -200,19 +203,32 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
                  tally.unusable, labels.size)  # fmt: skip
 
 
-def check_height(sample: "Floats", unit: float, name: str) -> None:
-    """Refuse points that are all about as high.
+def check_height(sample: "Floats", options: Options, name: str) -> None:
+    """Refuse points that are all about as high, or higher than any tower, and too many levels.
 
     Raises
     ------
     ParameterError
-        If no tower can be so low.
+        If no tower can be so low, or so high, or the step is too small for it.
     """
+    unit = options.unit
     low, high = np.percentile(sample[:, 2], [0.2, 99.8]) / unit
+    if high - low > HIGHEST:
+        msg = (
+            f"{name} has heights that differ by {high - low:,.0f} m, expected a tower at most "
+            f"{HIGHEST:,.0f} m high; unit= (--unit mm) may be missing"
+        )
+        raise ParameterError(msg)
     if high - low < LEAST_HEIGHT:
         msg = (
             f"{name} has points between z = {low:.3f} m and {high:.3f} m only, expected a tower "
             f"at least {LEAST_HEIGHT:g} m high; is another coordinate the height?"
+        )
+        raise ParameterError(msg)
+    if options.step is not None and (high - low) * unit / options.step > MOST_LEVELS:
+        msg = (
+            f"step is {options.step / unit:g} m, expected at most {MOST_LEVELS:,} levels in "
+            f"{high - low:.2f} m of height"
         )
         raise ParameterError(msg)
 
@@ -237,8 +253,6 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
     if polygon and circular:
         found = polygon if polygon.off < BETTER * circular.off else circular
     if found is None:
-        if np.ptp(sample[:, 2]) / options.unit > HIGHEST:
-            why += "; heights differ by more than a kilometre: unit= (--unit mm) may be missing"
         raise ParameterError(why)
     usual = float(np.median(found.table[:, 3]))
     if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
@@ -251,6 +265,25 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
         )
         raise ParameterError(msg)
     return found
+
+
+def check_lean(rough: Rough, sample: "Floats", unit: float) -> None:
+    """Refuse what looks like a tower but reaches farther sideways than up.
+
+    Raises
+    ------
+    ParameterError
+        If the rough axis does.
+    """
+    lean = float(np.degrees(np.arccos(min(abs(rough.frame.turn[2, 2]), 1.0))))
+    if lean > MOST_LEAN:
+        x, y, z = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+        msg = (
+            f"no tower was found: what looks like one leans by {lean:.0f}° from z, in a cloud that "
+            f"reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z), expected a tower that stands "
+            "along z; is another coordinate the height?"
+        )
+        raise ParameterError(msg)
 
 
 def on_shell(rough: Rough, sample: "Floats", unit: float) -> int:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString
+from shapely import MultiLineString
 
 from midrib.towers.summary import Summary, summary_of
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.towers.kinks import Kink, Offset
     from midrib.towers.stations import Station
-    from midrib.types import Bools, Floats
+    from midrib.types import Bools, Floats, Ints
 
 __all__ = ["LEVELS", "Shape", "TowerAxis"]
 
@@ -112,13 +112,21 @@ class TowerAxis:
         return np.column_stack([there["x"], there["y"], there["z"]])
 
     @cached_property
-    def line(self) -> LineString:
-        """The axis, a LineString Z through the levels that have a centre."""
-        return (
-            LineString(self.points)
-            if len(self.points) > 1
-            else shapely.from_wkt("LINESTRING Z EMPTY")
-        )
+    def breaks(self) -> "Ints":
+        """Rows of ``points`` at which the axis begins anew: above missing levels and offsets.
+
+        What is between them was not seen, or is no part of a smooth axis.
+        """
+        rows = np.flatnonzero(self.is_answered)
+        leaps = np.searchsorted(np.sort([offset.z for offset in self.offsets]), self.points[:, 2])
+        found: Ints = 1 + np.flatnonzero((np.diff(rows) > 1) | (np.diff(leaps) > 0))
+        return found
+
+    @cached_property
+    def line(self) -> MultiLineString:
+        """The axis, a MultiLineString Z with a part for each run of levels without a break."""
+        parts = [part for part in np.split(self.points, self.breaks) if len(part) > 1]
+        return MultiLineString(parts) if parts else shapely.from_wkt("MULTILINESTRING Z EMPTY")
 
     @cached_property
     def summary(self) -> Summary:

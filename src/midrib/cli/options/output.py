@@ -87,11 +87,12 @@ Quiet: TypeAlias = Annotated[
     bool, of_output("--quiet", "-q", metavar="", help="No progress, no summary.")
 ]
 TowerReport: TypeAlias = Annotated[
-    Path | None,
+    list[Path] | None,
     of_output(
         "--report",
         metavar="FILE",
-        help="Report with figures and the table of levels: .html, or .pdf for print.",
+        help="Report with figures and the table of levels: .html, or .pdf for print. May be given "
+        "several times.",
     ),
 ]
 TowerOut: TypeAlias = Annotated[

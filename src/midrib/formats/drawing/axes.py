@@ -1,4 +1,4 @@
-"""DXF of a tower's axis: a line in space, a point for each level, heights where there is room.
+"""DXF of a tower's axis: lines in space, a point for each level, heights where there is room.
 
 Seen from above, which is how it is plotted, a tower's axis is a short curve: the scale is the
 largest of 1:1, 1:2, 1:5, 1:10 … at which it fits on a page, and a height stands beside its level
@@ -13,6 +13,7 @@ from midrib.checks import check_library
 from midrib.formats.drawing.cad import RED, UNITS, VERSION, add_layout, set_extents
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     from midrib.types import Floats, Ints
@@ -24,8 +25,12 @@ PAGE, TEXT, MARK = 150.0, 2.5, 1.0  # millimetres: the axis at most, texts, circ
 ROOM = np.array([0.8, 1.4])  # of a character, in heights of a text: its width with what is beside
 
 
-def write_axis_dxf(path: "Path", points: "Floats", unit: float) -> None:
+def write_axis_dxf(
+    path: "Path", points: "Floats", unit: float, breaks: "Ints | Sequence[int]" = ()
+) -> None:
     """Write centres (n, 3) of levels, from the base up, with ``unit`` coordinate units in a metre.
+
+    ``breaks`` are the rows at which another polyline begins.
 
     Raises
     ------
@@ -45,8 +50,9 @@ def write_axis_dxf(path: "Path", points: "Floats", unit: float) -> None:
     document.layers.add(HEIGHTS)
     space = document.modelspace()
     corners = points.tolist()
-    if len(corners) > 1:
-        space.add_polyline3d(corners, dxfattribs={"layer": LINE})
+    for part in np.split(points, breaks):
+        if len(part) > 1:
+            space.add_polyline3d(part.tolist(), dxfattribs={"layer": LINE})
     for corner in corners:
         space.add_point(corner, {"layer": POINTS})
     size, texts = TEXT * millimetre, [f"{corner[2] / unit:.2f}" for corner in corners]
