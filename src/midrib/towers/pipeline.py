@@ -215,8 +215,8 @@ def check_height(sample: "Floats", options: Options, name: str) -> None:
     low, high = np.percentile(sample[:, 2], [0.2, 99.8]) / unit
     if high - low > HIGHEST:
         msg = (
-            f"{name} has heights that differ by {high - low:,.0f} m, expected a tower at most "
-            f"{HIGHEST:,.0f} m high; unit= (--unit mm) may be missing"
+            f"no tower was found: {name} has heights that differ by {high - low:,.0f} m, expected "
+            f"at most {HIGHEST:,.0f} m; unit= (--unit mm) may be missing"
         )
         raise ParameterError(msg)
     if high - low < LEAST_HEIGHT:
