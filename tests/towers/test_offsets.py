@@ -64,6 +64,23 @@ def test_the_fan_follows_an_offset_of_its_own() -> None:
     assert np.nanmax(offsets(axis, scan)[~near]) < 2e-3
 
 
+@pytest.mark.parametrize("height", [2.0, 3.0, 8.0])
+@pytest.mark.parametrize("size", [0.02, 0.1])
+def test_a_lift_set_aside_is_not_passed_by_in_silence(height: float, size: float) -> None:
+    """The smooth axis misses a short one, but its levels have sections of their own."""
+    scan = scan_of(replace(TOWER, offset=0.0))
+    points = scan.points()
+    points[:, 1] += np.where((points[:, 2] > 20.0) & (points[:, 2] < 20.0 + height), size, 0.0)
+    levels = tower_axis(points).levels
+    x, y = scan.axis(levels["z"]).T
+    is_aside = (levels["z"] > 20.0) & (levels["z"] < 20.0 + height)
+    off = np.hypot(levels["x"] - x, levels["y"] - y - np.where(is_aside, size, 0.0))
+    is_cut = np.abs(levels["z"][:, None] - [20.0, 20.0 + height]).min(axis=1) <= 0.25
+    is_silent = (levels["flag"] == "") & (off > 0.005)
+    assert not levels["z"][is_silent & ~is_cut].size  # those that are cut are half here, half there
+    assert np.count_nonzero(levels["flag"] == "") > 0.7 * len(levels)
+
+
 def test_a_tower_with_an_offset_has_its_points_on_its_axis() -> None:
     tower = Tower(10.0, 1.0, 1.0, offset=0.5, offset_height=5.0)
     s = np.array([4.999, 5.001])

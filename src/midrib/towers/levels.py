@@ -10,6 +10,7 @@ import numpy as np
 
 from midrib.errors import ParameterError
 from midrib.towers import gate
+from midrib.towers.asides import asides_at
 from midrib.towers.records import LEVELS
 from midrib.towers.summary import azimuth_of
 
@@ -95,8 +96,9 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + drawn.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
     uncertain = is_uncertain(levels, sigma, unit)
+    aside = asides_at(shell, s, xy, UNCERTAIN * unit)
     flags = flags_of(
-        shell, s, seen, levels, why, uncertain, untold, told=options.registration > 0.0
+        shell, s, seen, levels, why, uncertain, untold, aside, told=options.registration > 0.0
     )
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
@@ -177,6 +179,7 @@ def flags_of(
     why: Any,
     uncertain: "Bools",
     untold: "Bools",
+    aside: "Floats",
     *,
     told: bool,
 ) -> "np.ndarray[Any, np.dtype[np.str_]]":
@@ -218,6 +221,10 @@ def flags_of(
     mark(answered & is_round & (seen.near < SEEN), "radius from taper prior")
     mark(answered & apart, "stations not put together")
     mark(answered & in_dent, "dented, or partly hidden")
+    mark(
+        answered & (aside > 0.0),
+        [f"its own section is {1e3 * a / shell.unit:.1f} mm aside" for a in aside],
+    )
     # Cells of the level at which the axis leaps are partly below it and partly above.
     for leap, offset in zip(shell.fit.model.axis.leaps, shell.fit.leaps()[0], strict=True):
         size = 1e3 * float(np.hypot(*offset)) / shell.unit

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.types import Bools, Floats
 
-__all__ = ["beyond_rings"]
+__all__ = ["beyond_rings", "is_seen", "rings_of"]
 
 SEEN = 300.0  # degrees of a level that tell its circle
 FACES, FACE_CELLS = 3, 2  # faces that tell a polygon, if more than half; cells they are seen by
@@ -38,7 +38,7 @@ def beyond_rings(cells: "Cells", normal: "Floats", prior: "Floats", unit: float)
     if has_ring.sum() <= MOST * np.unique(cells.level[used]).size:
         return None
     design = np.column_stack([normal, np.ones(cells.d.size)])
-    rings = rings_of(cells, design, used, has_ring)
+    rings = rings_of(cells, design, cells.d, used, has_ring)
     smooth = smoothed(rings, NEAR * unit / grid.level)
     is_far = np.abs(rings - smooth).max(axis=1) > FAR * unit
     rings[is_far] = smooth[is_far]
@@ -60,11 +60,13 @@ def is_seen(cells: "Cells", normal: "Floats", used: "Bools") -> "Bools":
     return np.asarray((counts >= FACE_CELLS).sum(axis=1) >= max(FACES, len(faces) // 2 + 1))
 
 
-def rings_of(cells: "Cells", design: "Floats", used: "Bools", has_ring: "Bools") -> "Floats":
-    """Rings (k, 3) of the levels that have one, by Huber's weights."""
+def rings_of(
+    cells: "Cells", design: "Floats", d: "Floats", used: "Bools", has_ring: "Bools"
+) -> "Floats":
+    """Rings (k, 3) of the levels that have one, of cells that are ``d`` out, by Huber's weights."""
     row = np.cumsum(has_ring) - 1
     inside = used & has_ring[cells.level]
-    level, design, d = row[cells.level[inside]], design[inside], cells.d[inside]
+    level, design, d = row[cells.level[inside]], design[inside], d[inside]
     n = int(has_ring.sum())
     weight: Floats = np.ones(d.size)
     rings: Floats = np.zeros((n, 3))
