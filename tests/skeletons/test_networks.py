@@ -107,19 +107,6 @@ def test_vertices_next_to_each_other_are_no_crossing_without_a_radius(apart: flo
     assert found > 10
 
 
-@pytest.mark.parametrize("origin", [(0.0, 0.0), (650000.0, 5480000.0)])
-@pytest.mark.parametrize("seed", range(15))
-def test_sampled_lines_do_not_turn_back(seed: int, origin: Place) -> None:
-    """Of a street of parallel sides samples are on one circle by four, but for rounding."""
-    rng, streets = np.random.default_rng(seed), []
-    for turn in np.radians(rng.choice([0.0, 90.0, 33.0], 8)):
-        (x, y), length = rng.uniform(0.0, 200.0, 2), rng.uniform(40.0, 200.0)
-        end = (x + length * np.cos(turn), y + length * np.sin(turn))
-        streets.append(road((x, y), end, width=float(rng.choice([6.0, 10.0, 16.0]))))
-    plan = max(shapely.get_parts(shapely.union_all(streets)), key=shapely.area)
-    assert meets_at_nodes_only(network(affinity.translate(plan, *origin), "point-voronoi"))
-
-
 @pytest.mark.parametrize("width", [1.0, 2.0, 3.5])
 def test_a_road_goes_straight_on_past_one_that_joins_it(width: float) -> None:
     area = shapely.union_all([road((-20, 0), (20, 0)), road((3, 0), (3, 15), width=width)])

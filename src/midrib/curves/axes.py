@@ -10,7 +10,6 @@ from shapely import Polygon
 
 from midrib.checks import is_number, shown
 from midrib.curves.graphs import Graph, radii_of
-from midrib.curves.narrowing import components
 from midrib.curves.straight_skeleton import straight_skeleton_in
 from midrib.curves.turning import TURNS, turned, turned_back
 from midrib.errors import InvariantError, ParameterError, TooManyStationsError
@@ -26,7 +25,6 @@ __all__ = ["AXES", "Axis"]
 
 ARCS_WITHIN = 0.01  # of the mean width
 POINTS_PER_WIDTH = 4.0
-ROUNDED = 2.0**-46  # of coordinates: what is as near as this is one Voronoi vertex
 MOST_POINTS = 5_000_000
 # Of the extent: vertices that follow each other and are no farther apart are one, if the axis is
 # not found otherwise. Where the wall between them leads, rounding says.
@@ -57,7 +55,6 @@ def point_voronoi(*, spacing: float | None = None) -> Axis:
         rings = coordinates[:, :2] * layout.scale
         rows, row_starts = densified(rings, starts, apart)
         points, edges = voronoi_inside(boundary_of(normalised(rows, row_starts)[0]).mesh)
-        edges = joined_where_near(points, edges, np.abs(rings).max())
         points, edges = kept_inside(points, edges, rings, starts)
         points = points / layout.scale
         return Graph(points, edges, radii_of(coordinates, starts, points, layout.scale))
@@ -145,28 +142,13 @@ def densified(rings: Floats, starts: Ints, apart: float) -> tuple[Floats, Ints]:
     return rows, offsets(count)[starts]
 
 
-def joined_where_near(points: Floats, edges: Ints, largest: float) -> Ints:
-    """Edges between points that rounding tells apart; those it does not are one.
-
-    Four samples on one circle have two Voronoi vertices in one place, and a line through both
-    would go there and back by the rounding of coordinates, of which ``largest`` is the largest.
-    """
-    edges = edges[np.isfinite(points[edges]).all(axis=(1, 2))]
-    step = np.abs(np.diff(points[edges], axis=1)[:, 0]).max(axis=1)
-    is_near = step <= ROUNDED * largest
-    chief = components(len(points), edges[is_near])
-    between = chief[edges[~is_near]]
-    between = between[between[:, 0] != between[:, 1]]
-    _, first = np.unique(np.sort(between, axis=1), axis=0, return_index=True)
-    joined: Ints = between[np.sort(first)]
-    return joined
-
-
 def kept_inside(points: Floats, edges: Ints, rings: Floats, starts: Ints) -> tuple[Floats, Ints]:
     """Edges inside an area, and their points; where points are far apart, some leave it."""
     shell, *holes = np.split(rings, starts[1:-1])
     area = Polygon(shell, holes)
     shapely.prepare(area)
+    is_good = np.isfinite(points[edges]).all(axis=(1, 2))
+    edges = edges[is_good]
     edges = edges[shapely.covers(area, shapely.linestrings(points[edges]))]
     used, edges = np.unique(edges, return_inverse=True)
     return points[used], edges.reshape(-1, 2)
