@@ -450,3 +450,14 @@ def test_what_is_no_area_is_refused() -> None:
 
 def test_it_is_a_public_name() -> None:
     assert "network" in midrib.__all__
+
+
+@pytest.mark.parametrize("method", ["medial-axis", "straight-skeleton", "chordal-axis"])
+@pytest.mark.filterwarnings("error")
+def test_a_vertex_that_is_there_twice_is_no_wall(method: Any) -> None:
+    bar, stem = shapely.box(0.0, 0.0, 40.0, 4.0), shapely.box(18.0, -20.0, 22.0, 0.0)
+    corners = shapely.get_coordinates(shapely.union_all([bar, stem]))
+    whole = network(shapely.Polygon(corners), method)
+    for k in range(len(corners) - 1):
+        twice = np.insert(corners, k, corners[k], axis=0)
+        assert network(shapely.Polygon(twice), method).equals_exact(whole, 1e-9, normalize=True)

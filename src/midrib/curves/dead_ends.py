@@ -79,9 +79,9 @@ def flat_wall(wall: int, site: Site) -> tuple[Floats, bool]:
         k = int(on[wall])
         while k != wall:
             beyond = walls[k, end] - ends[1 - end]
-            off = abs(way[0] * beyond[1] - way[1] * beyond[0]) / np.hypot(*way)
+            off = abs(way[0] * beyond[1] - way[1] * beyond[0])
             step = walls[k, 1] - walls[k, 0]
-            if off > STRAIGHT * site.extent or step @ way <= 0.0:
+            if off > STRAIGHT * site.extent * np.hypot(*way) or step @ way <= 0.0:
                 break
             ends[end] = walls[k, end]
             k = int(on[k])
@@ -136,6 +136,8 @@ def middle_ahead(way: Floats, wall: Floats, longest: float) -> Floats | None:
 def inside_of(edge: Floats, start: Floats, site: Site) -> Floats | None:
     """Point of the edge, or next to it, to which a line leads from a start inside; or None."""
     rounding = np.spacing(np.abs(np.stack([start, edge])).max())
+    if (start == edge).all():
+        return None  # no direction leads there
     back = (start - edge) / np.hypot(*(start - edge))
     for inwards in INWARDS:
         there: Floats = (edge + inwards * rounding * back) / site.scale

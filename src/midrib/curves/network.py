@@ -63,7 +63,8 @@ def network(
     MultiLineString; object array; GeoSeries
         As ``areas`` is one area, an array (same shape) or a GeoSeries (index and CRS kept). Lines
         lead from node to node, or round; those that meet do so in equal points at their ends, and
-        nowhere else.
+        nowhere else. Only of ``"point-voronoi"``, whose samples are often on one circle by four,
+        may lines turn back by the last digits of coordinates.
 
     Raises
     ------
