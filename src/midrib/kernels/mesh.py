@@ -88,7 +88,10 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
     of ring vertex k (rings that touch share one), ``touches[k]`` a vertex inside segment k or -1.
     """
     status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(x, y, ring_next)
-    door, other_door = doors(x.size, tri, twin)
+    if is_valid:  # one boundary side leaves each vertex: that on its own segment
+        door, other_door = side_of_segment.copy(), np.full(tri.size, -1, np.intp)
+    else:
+        door, other_door = doors(x.size, tri, twin)
     return Triangulated(
         status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches, is_valid
     )

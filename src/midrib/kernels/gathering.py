@@ -1,0 +1,111 @@
+"""The inside of rings whose segments all are edges already, as those of most areas are.
+
+Banks are drawn with vertices that are nearer to each other than to the other bank: then each of
+their segments is Delaunay by itself, and no table of segments is needed to tell the inside.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from midrib.kernels.insertion import FACE, TWIN
+from midrib.kernels.jit import njit
+from midrib.kernels.places import place
+from midrib.types import Ints, Places
+
+__all__ = ["Inside", "gather_inside"]
+
+ROW, UNKNOWN = 3, -1  # place in a triangle of its row among those kept
+
+
+class Inside(NamedTuple):
+    """Half-edges of the triangles inside, see ``triangulate_rings``."""
+
+    is_done: bool
+    tri: Ints
+    twin: Ints
+    side_of_segment: Ints
+
+
+@njit()
+def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places) -> Inside:
+    """Keep the triangles that can be reached from the left of a segment without crossing one.
+
+    Not done where a segment is no edge, where rings touch, or where they are not nested as those
+    of a valid area: where the right of a segment or the rim would be kept.
+    """
+    n, nothing = ring_next.size, np.empty(0, np.intp)
+    no = Inside(False, nothing, nothing, nothing)
+    follows, rings = np.full(n + 3, -1, np.int32), 0
+    for k in range(n):
+        if same[k] != k:
+            return no
+        follows[k] = ring_next[k]
+        rings += ring_next[k] <= k
+    kept, stack = n + 2 * rings - 4, np.empty(count, np.int32)
+    seeds, size = seed_inside(count, follows, face, stack)
+    if size != n or seeds > kept or kept < 0:
+        return no
+    tri, twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
+    side_of_segment = np.empty(n, np.intp)
+    if not spread_inside(seeds, kept, follows, face, stack, tri, twin, side_of_segment):
+        return no
+    return Inside(True, tri, twin, side_of_segment)
+
+
+@njit(borrows=True)
+def seed_inside(count: int, follows: Places, face: Places, stack: Places) -> tuple[int, int]:
+    """Put the triangles on the left of segments on the stack; how many, and of how many segments.
+
+    All triangles are given their row on it.
+    """
+    kept, size = 0, 0
+    for t in range(count):
+        e = FACE * place(t)
+        a, b, c = place(face[e]), place(face[e + 1]), place(face[e + 2])
+        on = int(follows[a] == b) + int(follows[b] == c) + int(follows[c] == a)
+        face[e + ROW] = kept if on > 0 else UNKNOWN
+        stack[place(kept)] = t
+        kept += on > 0
+        size += on
+    return kept, size
+
+
+@njit(borrows=True)
+def spread_inside(
+    size: int,
+    most: int,
+    follows: Places,
+    face: Places,
+    stack: Places,
+    tri: Ints,
+    twin: Ints,
+    side_of_segment: Ints,
+) -> bool:
+    """Go on from the triangles on the stack; whether there are as many as there should be.
+
+    By Euler's formula, of n vertices of a shell and h holes: n + 2 h - 2.
+    """
+    n, done = side_of_segment.size, 0
+    while done < size:
+        e, new = FACE * place(stack[place(done)]), 3 * place(done)
+        done += 1
+        for side in range(3):
+            a, b = place(face[e + side]), place(face[e + (side + 1 if side < 2 else 0)])
+            f = face[e + side + TWIN]
+            tri[new + side] = a
+            if follows[a] == b:
+                side_of_segment[a], twin[new + side] = new + side, -1
+                continue
+            if follows[b] == a or f < 0 or a >= n:
+                return False
+            first = place(f) & -FACE
+            row = face[first + ROW]
+            if row < 0:
+                if size == most:
+                    return False
+                row = face[first + ROW] = size
+                stack[place(size)] = first // FACE
+                size += 1
+            twin[new + side] = 3 * row + (f & 3)
+    return size == most
