@@ -42,33 +42,50 @@ def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places) -> Insi
             return no
         follows[k] = ring_next[k]
         rings += ring_next[k] <= k
-    kept, stack = n + 2 * rings - 4, np.empty(count, np.int32)
-    seeds, size = seed_inside(count, follows, face, stack)
-    if size != n or seeds > kept or kept < 0:
-        return no
-    tri, twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
+    most, stack = n + 2 * rings - 4, np.empty(count, np.int32)
     side_of_segment = np.empty(n, np.intp)
-    if not spread_inside(seeds, kept, follows, face, stack, tri, twin, side_of_segment):
+    if find_segments(count, follows, face, side_of_segment) != n or most < 1:
+        return no
+    seeds = seed_inside(most, face, stack, side_of_segment)
+    tri, twin = np.empty(3 * most, np.intp), np.empty(3 * most, np.intp)
+    if seeds < 0 or not spread_inside(seeds, most, follows, face, stack, tri, twin, n):
         return no
     return Inside(True, tri, twin, side_of_segment)
 
 
 @njit(borrows=True)
-def seed_inside(count: int, follows: Places, face: Places, stack: Places) -> tuple[int, int]:
-    """Put the triangles on the left of segments on the stack; how many, and of how many segments.
-
-    All triangles are given their row on it.
-    """
-    kept, size = 0, 0
+def find_segments(count: int, follows: Places, face: Places, side_of_segment: Ints) -> int:
+    """Find the half-edges on segments, return how many there are; no triangle has a row yet."""
+    size = 0
     for t in range(count):
         e = FACE * place(t)
-        a, b, c = place(face[e]), place(face[e + 1]), place(face[e + 2])
-        on = int(follows[a] == b) + int(follows[b] == c) + int(follows[c] == a)
-        face[e + ROW] = kept if on > 0 else UNKNOWN
-        stack[place(kept)] = t
-        kept += on > 0
-        size += on
-    return kept, size
+        face[e + ROW] = UNKNOWN
+        for side in range(3):
+            a, b = place(face[e + side]), place(face[e + (side + 1 if side < 2 else 0)])
+            if follows[a] == b:
+                side_of_segment[a] = e + side
+                size += 1
+    return size
+
+
+@njit(borrows=True)
+def seed_inside(most: int, face: Places, stack: Places, side_of_segment: Ints) -> int:
+    """Put the triangles on the left of segments on the stack; how many, -1 if too many.
+
+    In order along the rings: whoever goes along them finds them side by side.
+    """
+    size = 0
+    for k in range(side_of_segment.size):
+        e = place(side_of_segment[k])
+        first = e & -FACE
+        if face[first + ROW] < 0:
+            if size == most:
+                return -1
+            face[first + ROW] = size
+            stack[place(size)] = first // FACE
+            size += 1
+        side_of_segment[k] = 3 * face[first + ROW] + (e & 3)
+    return size
 
 
 @njit(borrows=True)
@@ -80,13 +97,13 @@ def spread_inside(
     stack: Places,
     tri: Ints,
     twin: Ints,
-    side_of_segment: Ints,
+    n: int,
 ) -> bool:
     """Go on from the triangles on the stack; whether there are as many as there should be.
 
     By Euler's formula, of n vertices of a shell and h holes: n + 2 h - 2.
     """
-    n, done = side_of_segment.size, 0
+    done = 0
     while done < size:
         e, new = FACE * place(stack[place(done)]), 3 * place(done)
         done += 1
@@ -95,7 +112,7 @@ def spread_inside(
             f = face[e + side + TWIN]
             tri[new + side] = a
             if follows[a] == b:
-                side_of_segment[a], twin[new + side] = new + side, -1
+                twin[new + side] = -1
                 continue
             if follows[b] == a or f < 0 or a >= n:
                 return False

@@ -339,11 +339,15 @@ def keep_inside(
     """
     count = place(count)
     row, stack = np.full(count, -1, np.int32), np.empty(count, np.uint32)
+    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
     kept, size = 0, 0
-    for t in range(count):
-        e = 3 * place(t)
-        if max(segment[e], segment[e + 1], segment[e + 2]) >= 0:
-            row[t], stack[kept] = kept, t
+    for e in range(3 * count):
+        if segment[e] >= 0:
+            side_of_segment[segment[e]] = e
+    for k in range(n_segments):  # in order along the rings, see ``gathering``
+        e = side_of_segment[k]
+        if e >= 0 and row[place(e) // 3] < 0:
+            row[place(e) // 3], stack[kept] = kept, place(e) // 3
             kept += 1
     while size < kept:
         e = 3 * place(stack[size])
@@ -356,7 +360,6 @@ def keep_inside(
                     row[t], stack[kept] = kept, t
                     kept += 1
     new_tri, new_twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
-    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
     for i in range(kept):
         e, new = 3 * place(stack[i]), 3 * place(i)
         for side in range(3):
