@@ -15,7 +15,7 @@ from shapely import LineString, Polygon, affinity, box
 from midrib.kernels.gathering import gather_inside
 from midrib.kernels.insertion import BLOCK, FACE, coarse_to_fine, insert_all
 from midrib.kernels.jit import njit
-from midrib.kernels.mesh import Mesh
+from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.triangulation import force_rings, within_triangle
 from midrib.layout import Boundary, boundary_of
 from midrib.ragged import rings_of_area
@@ -299,3 +299,22 @@ def test_densely_drawn_areas_are_gathered() -> None:
 )
 def test_rings_that_may_not_be_valid_are_not_gathered(area: Polygon) -> None:
     assert not check_both_ways(area)
+
+
+onward = callable_from_python(next_boundary_side)
+
+
+@pytest.mark.parametrize("name", VALID)
+def test_the_next_boundary_side_ends_the_fan(name: str) -> None:
+    """Of rings that touch too, where several fans meet in a vertex."""
+    _, mesh = mesh_of(VALID[name])
+    for e in np.flatnonzero(mesh.twin < 0):
+        f = following(e)
+        while mesh.twin[f] >= 0:
+            f = following(mesh.twin[f])
+        assert onward(mesh, e) == f
+
+
+def following(e: int) -> int:
+    """Next half-edge of a triangle."""
+    return e - 2 if e % 3 == 2 else e + 1

@@ -64,6 +64,9 @@ class Triangulated(NamedTuple):
 def next_boundary_side(mesh: Mesh, e: int) -> int:
     """Return the boundary side that follows e around the inside: the other end of its fan."""
     e = next_side(e)
+    door = mesh.door[mesh.tri[e]]
+    if mesh.other_door[door] < 0:  # there is but one fan, and this is where it ends
+        return door
     while mesh.twin[e] >= 0:
         e = next_side(place(mesh.twin[e]))
     return e
