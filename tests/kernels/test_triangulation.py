@@ -309,9 +309,9 @@ def test_the_next_boundary_side_ends_the_fan(name: str) -> None:
     """Of rings that touch too, where several fans meet in a vertex."""
     _, mesh = mesh_of(VALID[name])
     for e in np.flatnonzero(mesh.twin < 0):
-        f = following(e)
+        f = following(int(e))
         while mesh.twin[f] >= 0:
-            f = following(mesh.twin[f])
+            f = following(int(mesh.twin[f]))
         assert onward(mesh, e) == f
 
 
