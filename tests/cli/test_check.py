@@ -90,13 +90,14 @@ def test_slopes_that_have_ended_are_told(midrib: Runner, tmp_path: Path) -> None
 
 
 @pytest.mark.parametrize("place", ["layer", "file", "layer of a file", "drawing"])
-def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Path) -> None:
+def test_what_is_wrong_with_strokes_is_found(place: str, midrib: Runner, tmp_path: Path) -> None:
     path = tmp_path / "in.gpkg"
     area, top = shapely.box(0, 0, 9, 2), LineString([(0, 2), (9, 2)])
     attributes = pa.table({"id": ["a"], "top": [top.wkt]})
     rows = np.array([area], dtype=object)
     write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", RD_NEW))
     lines: list[str | None] = ["LINESTRING (1 2, 3 0)", "LINESTRING (3 2, 1 0)"]
+    lines += ["LINESTRING (8 2, 8 -2)"]
     name = "strokes.dxf" if place == "drawing" else "strokes.gpkg"
     told = path if place == "layer" else tmp_path / name
     write(told, lines, layer="strokes")
@@ -109,6 +110,10 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     outcome = midrib("check", path, *options, "--strokes", strokes)
     assert outcome.code == 1
     assert "strokes 1 and 2 cross" in outcome.out
+    assert "findings: 2, 1 crossing, 1 outside" in outcome.err
+    row = next(line.split() for line in outcome.out.splitlines() if "outside" in line)
+    assert row[:4] == ["a", "outside", "8.000", "-1.000"]
+    assert "2 of stroke 3 is outside of the slope" in outcome.out
     wrong = midrib("check", path, *options, "--strokes", "nothing")
     assert wrong.code == 2
     assert "--strokes is 'nothing', expected a layer of '" in wrong.err

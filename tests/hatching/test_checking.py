@@ -16,6 +16,7 @@ from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.slopes import read_slopes
 from midrib.hatching import checking
 from midrib.hatching.checking import CHECKS, Finding, check_slopes, falls
+from midrib.hatching.hatch import hatch
 from midrib.hatching.slope import Slope, SlopeKind, SlopeProblem
 from midrib.hatching.standard import Standard
 
@@ -37,6 +38,15 @@ MOUND = Slope(
 def with_heights(slope: Slope, top: list[list[float]], toe: list[list[float]]) -> Slope:
     """Slope with points of known height."""
     return replace(slope, top_heights=np.array(top), toe_heights=np.array(toe))
+
+
+def translated(slope: Slope, name: str, y: float) -> Slope:
+    """Slope farther up."""
+    moved = {
+        what: shapely.affinity.translate(getattr(slope, what), 0.0, y)
+        for what in ("area", "top", "toe")
+    }
+    return replace(slope, id=name, **moved)
 
 
 def names(findings: list[Finding]) -> list[tuple[str, str]]:
@@ -143,7 +153,8 @@ def test_very_unequal_edges_are_doubtful(height: float, is_doubtful: bool) -> No
 def test_strokes_in_each_others_way_are_found(
     strokes: list[list[tuple[float, float]]], count: int
 ) -> None:
-    found = check_slopes([SLOPE], strokes=[None, *map(LineString, strokes)])
+    told = check_slopes([SLOPE], strokes=[None, *map(LineString, strokes)])
+    found = [finding for finding in told if finding.check == "crossing"]
     assert names(found) == [("a", "crossing")] * count
     for finding in found:
         assert finding.where is not None
@@ -152,9 +163,81 @@ def test_strokes_in_each_others_way_are_found(
 
 def test_strokes_off_every_slope_have_no_name() -> None:
     cross = [LineString([(20, 0), (22, 2)]), LineString([(20, 2), (22, 0)])]
-    (finding,) = check_slopes([SLOPE], strokes=cross)
+    finding, *others = check_slopes([SLOPE], strokes=cross)
     assert (finding.id, finding.where) == ("", Point(21, 1))
     assert finding.reason == "strokes 1 and 2 cross"
+    assert names(others) == [("", "outside")] * 2
+
+
+@pytest.mark.parametrize(
+    ("stroke", "reason", "place"),
+    [
+        ([(20, 2), (20, 0)], "stroke 2, 2 long, is outside of every slope", ("", 20, 1)),
+        ([(1, 2), (1, -0.5)], "0.5 of stroke 2 is outside of the slope", ("a", 1, -0.25)),
+        ([(4, 3), (4, -0.5)], "1 of stroke 2 is outside of the slope", ("a", 4, 2.5)),
+        # From one slope into another: it is on the one that holds more of it.
+        ([(1, 2), (1, 5)], "1 of stroke 2 is outside of the slope", ("b", 1, 2.5)),
+    ],
+)
+def test_strokes_outside_are_found_with_place_and_length(
+    stroke: list[tuple[float, float]], reason: str, place: tuple[str, float, float]
+) -> None:
+    up = translated(SLOPE, "b", 3.0)
+    found = check_slopes([SLOPE, up], strokes=[None, LineString(stroke)])
+    name, x, y = place
+    first = next(finding for finding in found if finding.id == name)
+    assert (first.check, first.reason, first.where) == ("outside", reason, Point(x, y))
+
+
+def test_both_ends_of_a_stroke_that_stick_out_are_found() -> None:
+    found = check_slopes([SLOPE], strokes=[LineString([(4, 3), (4, -0.5)])])
+    assert [finding.where for finding in found] == [Point(4, 2.5), Point(4, -0.25)]
+
+
+@given(
+    x=st.floats(-3.0, 12.0),
+    y=st.floats(-2.0, 4.0),
+    way=st.floats(0.0, 360.0),
+    length=st.floats(0.5, 6.0),
+)
+def test_outside_is_what_the_slope_does_not_cover(
+    x: float, y: float, way: float, length: float
+) -> None:
+    """Exactly shapely's difference, but for parts within half a line of the slope."""
+    angle = np.radians(way)
+    stroke = LineString([(x, y), (x + length * np.cos(angle), y + length * np.sin(angle))])
+    reach = 0.5 * 0.18 * 0.5
+    rest = shapely.get_parts(stroke.difference(AREA))  # farthest at an end: the slope is convex
+    ends = [shapely.points(part.coords) for part in rest if not part.is_empty]
+    depth = [shapely.distance(AREA, points).max() for points in ends]
+    found = check_slopes([SLOPE], strokes=[stroke])
+    # A corner is rounded, so that what is about a reach from it may count or not.
+    assert sum(d > reach for d in depth) <= len(found) <= sum(d > 0.97 * reach for d in depth)
+    places = [finding.where for finding in found]
+    assert all(shapely.distance(AREA, place) > 0.0 for place in places)
+
+
+def test_what_a_line_on_paper_covers_is_not_outside() -> None:
+    """Half of 0.18 mm, at 1:500: 0.045."""
+    for over, count in ((0.044, 0), (0.046, 1)):
+        stroke = LineString([(1, 2), (1, -over)])
+        assert len(check_slopes([SLOPE], strokes=[stroke])) == count
+        assert not check_slopes([SLOPE], strokes=[stroke], scale=1000.0)
+        assert len(check_slopes([SLOPE], strokes=[stroke], metres_per_unit=0.5)) == 0
+
+
+def test_outlines_around_several_slopes_are_not_outside() -> None:
+    both = [SLOPE, translated(SLOPE, "b", 2.0)]
+    around = LineString(box(0, 0, 9, 4).exterior)
+    assert check_slopes(both, strokes=[around]) == []
+    found = check_slopes(both, strokes=[around, LineString([(1, 4), (1, 0)])])
+    assert names(found) == [("a", "outside")]
+
+
+def test_our_own_strokes_are_inside() -> None:
+    lines = hatch(MOUND.strip(), "pl-2021-slope-reinforced").strokes
+    assert check_slopes([MOUND], strokes=lines) == []
+    assert len(check_slopes([SLOPE], strokes=lines)) == len(lines)
 
 
 def test_slopes_that_cannot_be_matched_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -237,4 +320,6 @@ def test_the_reference_drawing_has_no_crossing() -> None:
     slopes, problems = read_slopes(path)
     assert check_slopes(slopes, problems, strokes=strokes) == []
     moved = shapely.affinity.translate(strokes[20], 0.0, 3.0)
-    assert check_slopes(slopes, problems, strokes=[*strokes, moved])
+    found = check_slopes(slopes, problems, strokes=[*strokes, moved])
+    assert {finding.check for finding in found} >= {"outside"}
+    assert all(f"{len(strokes) + 1}" in finding.reason for finding in found)
