@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 __all__ = ["hatch"]
 
 MOST_LISTED = 10  # problems told on the terminal
+MOST_NAMED = 3  # objects that a note names
 TOLD = {  # what kinds of problems are called
     "left out": "objects left out",
+    "swapped": "tops lower than their toes",
     "unmatched": "places where strokes are left out or cut short",
     "beyond": "places where strokes exceed a bound",
 }
@@ -182,4 +184,12 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
     for kind, number in found.items():
         if kind != REFUSED:
-            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,}")
+            named = first_of([trouble.id for trouble in drawing.problems if trouble.kind == kind])
+            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,} ({named})")
+
+
+def first_of(names: list[str]) -> str:
+    """Name the first few of some objects, each once, and count the rest."""
+    known = list(dict.fromkeys(names))
+    more = f" and {len(known) - MOST_NAMED:,} more" if len(known) > MOST_NAMED else ""
+    return ", ".join(known[:MOST_NAMED]) + more
