@@ -86,7 +86,7 @@ def test_slopes_that_have_ended_are_told(midrib: Runner, tmp_path: Path) -> None
     ended = GOOD.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
     outcome = midrib("check", collection(tmp_path / "in.gml", BDOT_2015, ended))
     assert outcome.code == 0
-    assert "note: 1 slopes have ended, --history checks them" in outcome.err
+    assert "note: slopes that have ended: 1; --history checks them" in outcome.err
 
 
 @pytest.mark.parametrize("place", ["layer", "file", "layer of a file", "drawing"])

@@ -23,7 +23,7 @@ __all__ = ["draw_checks"]
 # Of CHECKS in turn.
 COLOURS = (
     *("#555555", "#8e44ad", "#e08a00", "#1e9e58"),
-    *("#8a6d3b", "#d6428c", "#111111", "#f0b400", "#00a3b4", "#e8590c"),
+    *("#8a6d3b", "#d6428c", "#111111", "#f0b400", "#00a3b4", "#a4c400"),
 )
 EDGE, DOT = 0.2, 1.8  # millimetres
 
