@@ -306,5 +306,5 @@ def test_standards_are_listed(midrib: Runner) -> None:
     assert outcome.code == 0
     first, *rows = outcome.out.splitlines()
     assert first.split() == ["name", "symbol", "confidence", "for", "source"]
-    assert len(rows) == 16
-    assert rows[3].startswith("iof-104")
+    assert len(rows) == 17
+    assert rows[4].startswith("iof-104")

@@ -268,6 +268,22 @@ def test_the_rule_of_the_mean_has_one_gap_and_the_standards_bounds() -> None:
     assert hatch(wedge, rule="mean", max_spacing=2.0).rule.least_gap == 1.0
 
 
+def test_a_standard_may_have_the_rule_of_the_mean() -> None:
+    wedge = Strip(LineString([(0, 0), (40, 0)]), LineString([(0, -2), (40, -8)]))
+    mine = standard("pl-2021-slope-reinforced", rule="mean")
+    several: list[dict[str, Any]] = [{}, {"factor": 0.8}, {"top_share": 0.5}]
+    for options in several:
+        ours, asked = hatch(wedge, mine, **options), hatch(wedge, rule="mean", **options)
+        assert (ours.on_top == asked.on_top).all()
+        assert (ours.on_toe == asked.on_toe).all()
+    plain = hatch(wedge, mine, rule="matching")
+    assert (plain.on_top == hatch(wedge).on_top).all()
+    # A gap of one's own holds, and strokes are at right angles to the top all the same.
+    fixed = hatch(wedge, mine, spacing=4.0)
+    assert fixed.rule.least_gap == 2.0
+    assert abs((fixed.on_toe - fixed.on_top)[:, 0]).max() < 0.1
+
+
 # -- refusals --------------------------------------------------------------------------------------
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import DrawingRule, SharedEdges, StartSide
+from midrib.cli.options import SharedEdges, StartSide
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -50,7 +50,7 @@ def hatch(
     end_strokes: cli.EndStrokes = False,
     stiffness: cli.Stiffness = None,
     top_share: cli.TopShare = None,
-    rule: cli.RuleOption = DrawingRule.matching,
+    rule: cli.RuleOption = None,
     layer: cli.Layer = None,
     top: cli.Top = None,
     toe: cli.Toe = None,
@@ -87,8 +87,9 @@ def hatch(
         stiffness=stiffness,
         top_share=top_share,
         offset=offset,
+        rule=rule and rule.value,
     )
-    options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
+    options |= {"start": from_side.value, "end_strokes": end_strokes}
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)

@@ -105,11 +105,12 @@ TopShare: TypeAlias = Annotated[
     of_strokes(metavar="0-1", help="1: at right angles to the top; 0: to both edges alike."),
 ]
 RuleOption: TypeAlias = Annotated[
-    DrawingRule,
+    DrawingRule | None,
     of_strokes(
         "--rule",
         metavar="NAME",
         help="matching; mean: one gap for a slope, by the mean distance of the top's vertices from "
-        "the toe, at right angles to the top; paper, for comparison.",
+        "the toe, at right angles to the top; paper, for comparison. The standard's unless you say "
+        "otherwise, matching for nearly all.",
     ),
 ]
