@@ -1,5 +1,6 @@
 """What each option does, and how wrong ones are refused."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
+from shapely.ops import nearest_points
 
 from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
@@ -181,6 +183,25 @@ def test_a_moved_stroke_stays_what_it_is() -> None:
     assert moved.on_top[3] == pytest.approx([21.5, 10.0])
     assert not moved.is_long[3]
     assert len(moved.strokes) == 19
+
+
+@pytest.mark.parametrize("shape", [rectangle, bend, annulus])
+def test_points_past_an_edge_are_on_no_stroke(shape: Callable[[], Strip]) -> None:
+    """However near to the line of a stroke, but for what clicks and decimals are off by."""
+    hatching = hatch(shape())
+    start, end = (  # between two strokes
+        np.array(nearest_points(edge, Point((ends[4] + ends[5]) / 2.0))[0].coords[0])
+        for edge, ends in (
+            (hatching.strip.main, hatching.on_top),
+            (hatching.strip.auxiliary, hatching.on_toe),
+        )
+    )
+    for share in (-0.009, 0.0, 0.5, 1.0, 1.009):
+        more = add_stroke(hatching, tuple(start + share * (end - start)))
+        assert len(more.strokes) == len(hatching.strokes) + 1
+    for share in (-0.9, -0.03, 1.03, 1.5):
+        with pytest.raises(ParameterError, match="no stroke of the slope leads through"):
+            add_stroke(hatching, tuple(start + share * (end - start)))
 
 
 def test_editing_a_closed_slope() -> None:

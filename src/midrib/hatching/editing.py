@@ -25,6 +25,9 @@ __all__ = ["add_stroke", "delete_stroke", "move_stroke"]
 
 HALVINGS = 60
 ON_STROKE = 1e-6  # of a stroke's length: so near is on it
+PAST_END = (
+    0.01  # of it: so far past an edge is on it still, as clicks and the decimals of files are
+)
 
 
 def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> Hatching:
@@ -194,10 +197,8 @@ def stroke_through(ground: Ground, point: "Floats") -> tuple[float, "Floats", "F
             high = half
     drawn = draw_strokes(ground.ladder, np.array([low]), ground.spacing)
     on_top, on_toe = drawn.chord[0, 2:4], drawn.chord[0, 4:6]
-    near = min(np.hypot(*(point - on_top)), np.hypot(*(point - on_toe)), drawn.chord[0, 6])
-    along = (on_toe - on_top) / drawn.chord[0, 6]
-    t = float((point - on_top) @ along)
-    is_on_it = -near <= t <= drawn.chord[0, 6] + near
+    t = float((point - on_top) @ (on_toe - on_top)) / float(drawn.chord[0, 6]) ** 2
+    is_on_it = -PAST_END <= t <= 1.0 + PAST_END
     if tuple(drawn.on[0]) != (ON_TOP, ON_TOE) or not is_on_it:
         msg = f"no stroke of the slope leads through {place_text(point)}"
         raise ParameterError(msg)
