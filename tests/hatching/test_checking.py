@@ -104,6 +104,29 @@ def test_heights_run_round_a_mound() -> None:
     ]
 
 
+def test_most_heights_decide_and_the_lowest_place_is_told() -> None:
+    top = [[0, 2, 170], [9, 2, 170]]
+    mostly = with_heights(SLOPE, top, [[2, 0, 168], [4, 0, 171], [7, 0, 169]])
+    assert check_slopes([mostly]) == []
+    swapped = with_heights(SLOPE, top, [[2, 0, 168], [4, 0, 173], [7, 0, 171]])
+    (finding,) = check_slopes([swapped])
+    assert finding.where == Point(4, 0)
+    assert "up to 3 lower" in finding.reason
+
+
+def test_heights_are_interpolated_over_the_seam_of_a_ring() -> None:
+    """The ring begins in (6, 3): (4.5, 3) is 1.5 past (3, 3) on the 5 to (6, 5)."""
+    slope = with_heights(MOUND, [[6, 5, 10], [3, 3, 12]], [[4.5, 0, 8]])
+    assert falls(slope)[0, 2] == pytest.approx(12.0 - 2.0 * 1.5 / 5.0 - 8.0)
+
+
+def test_rings_may_be_as_unequal_as_they_are() -> None:
+    outer = box(-3, -3, 12, 12).exterior
+    wide = replace(MOUND, area=Polygon(outer, MOUND.area.interiors), toe=LineString(outer.coords))
+    assert wide.toe.length > 4.0 * wide.top.length
+    assert "orientation" not in {finding.check for finding in check_slopes([wide])}
+
+
 @pytest.mark.parametrize(
     ("slope", "place"),
     [
@@ -238,6 +261,16 @@ def test_our_own_strokes_are_inside() -> None:
     lines = hatch(MOUND.strip(), "pl-2021-slope-reinforced").strokes
     assert check_slopes([MOUND], strokes=lines) == []
     assert len(check_slopes([SLOPE], strokes=lines)) == len(lines)
+
+
+def test_strokes_that_cross_beside_a_slope_are_not_on_it() -> None:
+    """In the corner of an L, within its bounds."""
+    area = Polygon([(0, 0), (9, 0), (9, 2), (2, 2), (2, 9), (0, 9)])
+    top = LineString([(9, 2), (2, 2), (2, 9)])
+    toe = LineString([(9, 2), (9, 0), (0, 0), (0, 9), (2, 9)])
+    bent = Slope("L", "other", area, top, toe, "test")
+    cross = [LineString([(6, 6), (8, 8)]), LineString([(6, 8), (8, 6)])]
+    assert ("", "crossing") in names(check_slopes([bent], strokes=cross))
 
 
 def test_slopes_that_cannot_be_matched_are_found(monkeypatch: pytest.MonkeyPatch) -> None:
