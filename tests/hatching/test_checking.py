@@ -105,7 +105,7 @@ def test_heights_run_round_a_mound() -> None:
 
 
 def test_most_heights_decide_and_the_lowest_place_is_told() -> None:
-    top = [[0, 2, 170], [9, 2, 170]]
+    top = [[0.0, 2.0, 170.0], [9.0, 2.0, 170.0]]
     mostly = with_heights(SLOPE, top, [[2, 0, 168], [4, 0, 171], [7, 0, 169]])
     assert check_slopes([mostly]) == []
     swapped = with_heights(SLOPE, top, [[2, 0, 168], [4, 0, 173], [7, 0, 171]])

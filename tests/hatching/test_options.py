@@ -178,6 +178,26 @@ def test_an_added_stroke_goes_through_its_point() -> None:
     assert less.spacing == pytest.approx(hatching.spacing)
 
 
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+def test_an_added_stroke_is_as_long_as_its_kind(ratio: float) -> None:
+    hatching = hatch(rectangle(), short_ratio=ratio)
+    for is_long in (True, False):
+        more = add_stroke(hatching, (21.5, 10.0), is_long=is_long)
+        (row,) = np.flatnonzero(abs(more.on_top[:, 0] - 21.5) < 1e-9)
+        share = shapely.length(more.strokes[row]) / more.width[row]
+        assert share == pytest.approx(1.0 if is_long else ratio)
+
+
+def test_strokes_that_would_end_on_a_side_are_refused() -> None:
+    """Beside the slanted ends of a slope."""
+    strip = Strip(LineString([(0, 10), (100, 10)]), LineString([(40, 0), (140, 0)]))
+    hatching = hatch(strip)
+    for at in ((2.0, 9.0), (138.0, 1.0)):
+        with pytest.raises(ParameterError, match="no stroke of the slope leads through"):
+            add_stroke(hatching, at)
+    assert len(add_stroke(hatching, (71.3, 5.0)).strokes) == len(hatching.strokes) + 1
+
+
 def test_a_moved_stroke_stays_what_it_is() -> None:
     moved = move_stroke(hatch(rectangle()), 3, (21.5, 10.0))
     assert moved.on_top[3] == pytest.approx([21.5, 10.0])
