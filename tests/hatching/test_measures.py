@@ -1,5 +1,6 @@
 """Measures of strokes that are drawn by hand: closed forms, one fault at a time."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -20,7 +21,7 @@ from midrib.hatching.measures import (
     untold,
 )
 from midrib.types import Floats
-from tests.hatching.slopes import annulus, rectangle
+from tests.hatching.slopes import annulus, elbow, lens, rectangle, trapezium
 
 WIDTH, GAP = 10.0, 5.0
 TOP, TOE = LineString([(0, WIDTH), (100, WIDTH)]), LineString([(0, 0), (100, 0)])
@@ -183,3 +184,18 @@ def test_only_what_the_top_is_straight_beside_has_a_tilt() -> None:
     circle = np.column_stack([np.cos(angles), np.sin(angles)])
     strip = Strip(LineString(20.0 * circle), LineString(30.0 * circle))
     assert measure(hatch(strip)).tilts.size == 0
+
+
+@pytest.mark.parametrize("shape", [elbow, trapezium, lens])
+def test_it_does_not_matter_which_way_the_edges_run(shape: Callable[[], Strip]) -> None:
+    hatching = hatch(shape())
+    assert hatching.ground is not None
+    lines = [hatching.strip.main, hatching.strip.auxiliary, LineString(hatching.ground.middle.line)]
+    strokes = hatching.strokes, hatching.is_long, hatching.on_top, hatching.on_toe
+    forth = measure_strokes(Strip(*lines[:2]), hatching.rule, lines[2], *strokes)
+    top, toe, middle = (line.reverse() for line in lines)
+    back = measure_strokes(Strip(top, toe), hatching.rule, middle, *strokes)
+    for name in ("spacing", "turns", "allowed", "tilts", "top_gap", "toe_gap", "least_foot"):
+        one, other = (np.sort(np.atleast_1d(getattr(m, name))) for m in (forth, back))
+        assert one == pytest.approx(other, abs=1e-9), name
+    assert len(forth.beyond) == len(back.beyond)

@@ -1,6 +1,8 @@
 """What each option does, and how wrong ones are refused."""
 
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,10 @@ from midrib.hatching import Rule, add_stroke, delete_stroke, move_stroke
 from midrib.hatching.rule import with_mean_gap
 from midrib.strip import Strip
 from tests.hatching.slopes import annulus, bend, lens, rectangle, ring, trapezium
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+from hatch_slopes import one_random
 
 
 def letters(**options: Any) -> str:
@@ -176,6 +182,24 @@ def test_an_added_stroke_goes_through_its_point() -> None:
     less = delete_stroke(more, row)
     assert (less.on_top == hatching.on_top).all()
     assert less.spacing == pytest.approx(hatching.spacing)
+
+
+@pytest.mark.parametrize("seed", [3002, 3005])
+def test_added_strokes_go_between_their_neighbours(seed: int) -> None:
+    """Where strokes are placed anew, in other directions than calm ones, too."""
+    hatching = hatch(one_random("deep", seed).strip)
+    whole = hatching.on_toe - hatching.on_top
+    way = np.degrees(np.unwrap(np.arctan2(whole[:, 1], whole[:, 0])))
+    middle = (hatching.on_top + hatching.on_toe) / 2.0
+    for i, at in enumerate((middle[1:] + middle[:-1]) / 2.0):
+        if not hatching.strip.area.covers(Point(at)):
+            continue  # beyond the wall of a bay
+        more = add_stroke(hatching, tuple(at))
+        assert (np.delete(more.on_top, i + 1, axis=0) == hatching.on_top).all()
+        x, y = (more.on_toe - more.on_top)[i + 1]
+        off = (np.degrees(np.arctan2(y, x)) - way[i : i + 2] + 180.0) % 360.0 - 180.0
+        assert off.min() <= 0.5
+        assert off.max() >= -0.5
 
 
 @pytest.mark.parametrize("ratio", [0.3, 0.5])
