@@ -119,6 +119,22 @@ def test_what_is_wrong_with_strokes_is_found(place: str, midrib: Runner, tmp_pat
     assert "--strokes is 'nothing', expected a layer of '" in wrong.err
 
 
+def test_of_a_layer_of_anything_the_lines_are_strokes(midrib: Runner, tmp_path: Path) -> None:
+    path, told = tmp_path / "in.gpkg", tmp_path / "any.geojson"
+    attributes = pa.table({"id": ["a"], "top": ["LINESTRING (0 2, 9 2)"]})
+    rows = np.array([shapely.box(0, 0, 9, 2)], dtype=object)
+    write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", None))
+    things = [Point(50, 50), shapely.box(50, 0, 60, 9), LineString([(8, 2), (8, -2)])]
+    features = [
+        {"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(thing)}
+        for thing in [shapely.GeometryCollection(things), *things]
+    ]
+    told.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    outcome = midrib("check", path, "--top", "top", "--strokes", told)
+    assert outcome.code == 1, outcome.err
+    assert "findings: 3, 1 crossing, 2 outside" in outcome.err  # the line is there twice
+
+
 def test_crossings_of_cartographic_objects_are_found(midrib: Runner, tmp_path: Path) -> None:
     ways = [[(E0 + 1, N0), (E0 + 3, N0 + 2)], [(E0 + 3, N0), (E0 + 1, N0 + 2)]]
     drawn = [

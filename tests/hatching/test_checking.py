@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
 
+from midrib.errors import GeometryTypeError
 from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.slopes import read_slopes
 from midrib.hatching import checking
@@ -261,6 +262,26 @@ def test_our_own_strokes_are_inside() -> None:
     lines = hatch(MOUND.strip(), "pl-2021-slope-reinforced").strokes
     assert check_slopes([MOUND], strokes=lines) == []
     assert len(check_slopes([SLOPE], strokes=lines)) == len(lines)
+
+
+@given(x=st.floats(0.5, 8.5), shift=st.sampled_from([0.0, 5e5, 5e6]))
+def test_ends_on_another_line_are_no_crossing_whatever_rounding_does(
+    x: float, shift: float
+) -> None:
+    """A stroke from a slanted outline: its end is on either side of that by rounding."""
+    outline = LineString([(shift, 2.0 * shift), (shift + 9.0, 2.0 * shift + 1.7)])
+    start = outline.interpolate(x)
+    stroke = LineString([start, (start.x + 0.3, start.y - 2.0)])
+    assert check_slopes([], strokes=[outline, stroke]) == []
+    longer = LineString([(start.x - 1e-3, start.y + 0.01), *stroke.coords])
+    assert names(check_slopes([], strokes=[outline, longer])) == [("", "crossing")]
+
+
+@pytest.mark.parametrize("wrong", [Point(1, 1), AREA, "LINESTRING (0 0, 1 1)"])
+def test_strokes_that_are_no_lines_are_refused(wrong: object) -> None:
+    kind = getattr(wrong, "geom_type", "str")
+    with pytest.raises(GeometryTypeError, match=rf"strokes\[1\] is a {kind}, expected a LineStr"):
+        check_slopes([SLOPE], strokes=[TOP, wrong])
 
 
 def test_strokes_that_cross_beside_a_slope_are_not_on_it() -> None:

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from shapely import Point
+from shapely import LineString, MultiLineString, Point
 
 from midrib import interrupts
-from midrib.errors import InvalidAreaError
+from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.draw import draw
 from midrib.hatching.existing import crossings, outside
 from midrib.hatching.finding import CHECK_OF, CHECKS, Finding
@@ -18,6 +18,8 @@ from midrib.hatching.slope import Slope, SlopeProblem
 from midrib.hatching.standards import standard_for, standards_named
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from midrib.types import Floats
 
 __all__ = ["CHECKS", "CHECK_OF", "Finding", "check_slopes", "doubts", "falls"]
@@ -61,6 +63,8 @@ def check_slopes(
 
     Raises
     ------
+    GeometryTypeError
+        If a stroke is no line.
     ParameterError
         If there is no such standard.
 
@@ -92,11 +96,28 @@ def check_slopes(
         if not off_ring:  # else edges and area do not go together
             at = {"scale": scale, "metres_per_unit": metres_per_unit}
             found += matching(slope, standard, at | options)
-    drawn = np.asarray(strokes, dtype=object).ravel()
+    drawn = lines_of(strokes)
     found += crossings(drawn, slopes)
     found += outside(drawn, slopes, half_a_line) if slopes else ()
     order = {check: k for k, check in enumerate(CHECKS)}
     return sorted(found, key=lambda finding: order[finding.check])
+
+
+def lines_of(strokes: Any) -> "NDArray[np.object_]":
+    """Return strokes as an array of lines, None among them.
+
+    Raises
+    ------
+    GeometryTypeError
+        If one is something else.
+    """
+    lines = np.asarray(strokes, dtype=object).ravel()
+    for row, line in enumerate(lines):
+        if line is not None and not isinstance(line, LineString | MultiLineString):
+            kind = getattr(line, "geom_type", type(line).__name__)
+            msg = f"strokes[{row}] is a {kind}, expected a LineString"
+            raise GeometryTypeError(msg)
+    return lines
 
 
 def doubts(slope: Slope) -> Iterator[Finding]:

@@ -17,7 +17,7 @@ import shapely
 from shapely import LineString, Point
 
 from midrib.hatching.finding import Finding
-from midrib.hatching.measures import outside_of
+from midrib.hatching.measures import outside_of, rounding_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -36,12 +36,22 @@ def crossings(strokes: "NDArray[np.object_]", slopes: "Sequence[Slope]") -> Iter
     areas = shapely.STRtree([slope.area for slope in slopes])
     found = shapely.STRtree(strokes).query(strokes, predicate="intersects")
     for one, other in found.T[found[0] < found[1]]:
-        if shapely.relate_pattern(strokes[one], strokes[other], MEET_IN_ENDS):
+        pair = strokes[[one, other]]
+        if shapely.relate_pattern(*pair, MEET_IN_ENDS) or meet_in_ends(pair):
             continue
-        place = shapely.intersection(strokes[one], strokes[other]).representative_point()
+        place = shapely.intersection(*pair).representative_point()
         near = areas.query(place, predicate="intersects")
         name = slopes[near[0]].id if len(near) else ""
         yield Finding(name, "crossing", f"strokes {one + 1} and {other + 1} cross", place)
+
+
+def meet_in_ends(pair: "NDArray[np.object_]") -> bool:
+    """Whether all that two strokes have in common are ends of theirs, but for rounding."""
+    reach, common = rounding_of(shapely.union_all(pair)), shapely.intersection(*pair)
+    ends = shapely.union_all(shapely.boundary(pair))
+    places = shapely.points(shapely.get_coordinates(common))
+    off = shapely.distance(places, ends)  # NaN if both are closed and have no ends
+    return bool(common.length <= reach and (off <= reach).all())
 
 
 def outside(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 from shapely import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
 from midrib.hatching.chains import chain_of
@@ -21,7 +22,15 @@ if TYPE_CHECKING:
     from midrib.strip import Strip
     from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Measures", "crossings", "measure", "measure_strokes", "outside_of", "untold"]
+__all__ = [
+    "Measures",
+    "crossings",
+    "measure",
+    "measure_strokes",
+    "outside_of",
+    "rounding_of",
+    "untold",
+]
 
 ON_EDGE, ROUNDING = 1e-9, 2.0**-48  # of the extent, and of the coordinates
 
@@ -107,8 +116,7 @@ def measure_strokes(
     on_toe: "Floats",
 ) -> Measures:
     """Measure strokes, whoever drew them, in order along the top."""
-    bounds = np.array(strip.area.bounds)
-    reach = ON_EDGE * float(np.hypot(*(bounds[2:] - bounds[:2]))) + ROUNDING * abs(bounds).max()
+    reach = rounding_of(strip.area)
     outside = float(shapely.length(outside_of(strokes, strip.area, reach)[0]).sum())
     off = np.maximum(
         shapely.distance(shapely.points(on_top), strip.main),
@@ -134,6 +142,12 @@ def measure_strokes(
         tilts=tilts[laid.gauged[:, LEAN] == MOST_TILT],
         beyond=excesses(laid) + far_ends(laid, least=LEAST_LENGTH * rule.least_gap),
     )
+
+
+def rounding_of(geometry: BaseGeometry) -> float:
+    """How far places may be off by rounding, and by what a file loses of them."""
+    bounds = np.array(geometry.bounds)
+    return float(ON_EDGE * np.hypot(*(bounds[2:] - bounds[:2])) + ROUNDING * abs(bounds).max())
 
 
 def outside_of(

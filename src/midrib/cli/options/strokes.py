@@ -94,7 +94,11 @@ SharedStrokes: TypeAlias = Annotated[
 ]
 EndStrokes: TypeAlias = Annotated[
     bool,
-    of_strokes("--end-strokes", metavar="", help="Strokes on the straight ends of slopes too, if they are part of neither edge."),
+    of_strokes(
+        "--end-strokes",
+        metavar="",
+        help="Strokes on the straight ends of slopes too, if they are part of neither edge.",
+    ),
 ]
 Stiffness: TypeAlias = Annotated[
     float | None,
