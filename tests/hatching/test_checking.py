@@ -16,7 +16,8 @@ from midrib.errors import GeometryTypeError
 from midrib.formats.drawing.slopes import draw_slopes
 from midrib.formats.slopes import read_slopes
 from midrib.hatching import checking
-from midrib.hatching.checking import CHECKS, Finding, check_slopes, falls
+from midrib.hatching.checking import check_slopes, falls
+from midrib.hatching.finding import CHECKS, Finding
 from midrib.hatching.hatch import hatch
 from midrib.hatching.slope import Slope, SlopeKind, SlopeProblem
 from midrib.hatching.standard import Standard

@@ -24,7 +24,7 @@ from midrib.formats.reading import Geometries, open_layer
 from midrib.formats.slopes import DRAWING, XML
 from midrib.formats.units import check_same_plane, is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged
-from midrib.hatching.checking import Finding
+from midrib.hatching.finding import Finding
 
 if TYPE_CHECKING:
     from midrib.cli.report import Report

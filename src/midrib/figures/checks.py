@@ -8,14 +8,14 @@ import shapely
 
 from midrib.figures.draw import AUXILIARY, FILL, MAIN, OUTLINE
 from midrib.figures.paper import sheet_for
-from midrib.hatching.checking import CHECKS
+from midrib.hatching.finding import CHECKS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.figure import Figure
 
-    from midrib.hatching.checking import Finding
+    from midrib.hatching.finding import Finding
     from midrib.hatching.slope import Slope
 
 __all__ = ["draw_checks"]

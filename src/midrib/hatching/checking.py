@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from midrib.types import Floats
 
-__all__ = ["CHECKS", "CHECK_OF", "Finding", "check_slopes", "doubts", "falls"]
+__all__ = ["check_slopes", "doubts", "falls"]
 
 MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
 ON_BOUNDARY = 1e-9  # of the extent: what a file loses of a place
