@@ -29,7 +29,7 @@ Floats = NDArray[np.float64]
 SOURCE = ROOT.parent / "shared" / "data" / "pl_szkoleniowy_skarpa_kreski.gpkg"
 PAGE = ROOT / "docs" / "registers.md"
 BEGIN, END = "<!-- drawing -->", "<!-- end of drawing -->"
-STANDARD = "pl-2021-slope-unreinforced"
+STANDARD, THEIRS = "pl-2021-slope-unreinforced", "gml-explorer-like"
 HEAD = ("strokes", "count", "gap, m", "theirs within 5° of the nearest of ours", "worst")
 
 
@@ -64,9 +64,10 @@ def rows() -> list[list[str]]:
         "the same, at right angles to the top": {"top_share": 1.0},
         'ours with `rule="mean"`': {"rule": "mean"},
         "the same, at right angles to both edges alike": {"rule": "mean", "top_share": 0.0},
+        f"ours by `{THEIRS}`": {"standard": THEIRS},
     }
     for name, options in ways.items():
-        ours = hatch(slope.strip(), STANDARD, **options)
+        ours = hatch(slope.strip(), **{"standard": STANDARD} | options)
         turned = off(ours, start, stop)
         within = f"{np.count_nonzero(turned <= 5.0)} of {len(start)}"
         spacing = f"{np.median(ours.spacing):.2f}"

@@ -131,6 +131,8 @@ def gap(known: Standard) -> str:
     """Cell about gaps, or the spacing of ticks and circles."""
     if known.factor is not None:
         text = f"F {marked(known, 'factor')}"
+        if known.rule == "mean":
+            return f"{text} of the mean width"
         if known.gentle_factor is None:
             return text
         return f"{text}, {known.gentle_factor:g} if gentler than 1:{known.gentle_run:g}"

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from midrib.formats.drawing.slopes import draw_slopes
     from midrib.formats.drawing.write import write_drawing
     from midrib.formats.slopes import Slope, read_slopes
-    from midrib.hatching.checking import Finding, check_slopes
+    from midrib.hatching.checking import check_slopes
+    from midrib.hatching.finding import Finding
     from midrib.hatching.hatch import Hatching, hatch
     from midrib.hatching.standard import Standard
     from midrib.hatching.standards import standard, standards
@@ -75,7 +76,7 @@ HOME = {
     "Comparison": "midrib.comparison",
     "ControlPoints": "midrib.curves.control",
     "Curve": "midrib.curves.minimal_radii",
-    "Finding": "midrib.hatching.checking",
+    "Finding": "midrib.hatching.finding",
     "Hatching": "midrib.hatching.hatch",
     "Joint": "midrib.curves.log",
     "Labels": "midrib.curves.label",

@@ -86,17 +86,18 @@ def test_slopes_that_have_ended_are_told(midrib: Runner, tmp_path: Path) -> None
     ended = GOOD.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
     outcome = midrib("check", collection(tmp_path / "in.gml", BDOT_2015, ended))
     assert outcome.code == 0
-    assert "note: 1 slopes have ended, --history checks them" in outcome.err
+    assert "note: slopes that have ended: 1; --history checks them" in outcome.err
 
 
 @pytest.mark.parametrize("place", ["layer", "file", "layer of a file", "drawing"])
-def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Path) -> None:
+def test_what_is_wrong_with_strokes_is_found(place: str, midrib: Runner, tmp_path: Path) -> None:
     path = tmp_path / "in.gpkg"
     area, top = shapely.box(0, 0, 9, 2), LineString([(0, 2), (9, 2)])
     attributes = pa.table({"id": ["a"], "top": [top.wkt]})
     rows = np.array([area], dtype=object)
     write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", RD_NEW))
     lines: list[str | None] = ["LINESTRING (1 2, 3 0)", "LINESTRING (3 2, 1 0)"]
+    lines += ["LINESTRING (8 2, 8 -2)"]
     name = "strokes.dxf" if place == "drawing" else "strokes.gpkg"
     told = path if place == "layer" else tmp_path / name
     write(told, lines, layer="strokes")
@@ -109,9 +110,29 @@ def test_crossings_of_strokes_are_found(place: str, midrib: Runner, tmp_path: Pa
     outcome = midrib("check", path, *options, "--strokes", strokes)
     assert outcome.code == 1
     assert "strokes 1 and 2 cross" in outcome.out
+    assert "findings: 2, 1 crossing, 1 outside" in outcome.err
+    row = next(line.split() for line in outcome.out.splitlines() if "outside" in line)
+    assert row[:4] == ["a", "outside", "8.000", "-1.000"]
+    assert "2 of stroke 3 is outside of the slope" in outcome.out
     wrong = midrib("check", path, *options, "--strokes", "nothing")
     assert wrong.code == 2
     assert "--strokes is 'nothing', expected a layer of '" in wrong.err
+
+
+def test_of_a_layer_of_anything_the_lines_are_strokes(midrib: Runner, tmp_path: Path) -> None:
+    path, told = tmp_path / "in.gpkg", tmp_path / "any.geojson"
+    attributes = pa.table({"id": ["a"], "top": ["LINESTRING (0 2, 9 2)"]})
+    rows = np.array([shapely.box(0, 0, 9, 2)], dtype=object)
+    write_layer(path, Features("slopes", attributes, rows, "geom", "Polygon", None))
+    things = [Point(50, 50), shapely.box(50, 0, 60, 9), LineString([(8, 2), (8, -2)])]
+    features = [
+        {"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(thing)}
+        for thing in [shapely.GeometryCollection(things), *things]
+    ]
+    told.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    outcome = midrib("check", path, "--top", "top", "--strokes", told)
+    assert outcome.code == 1, outcome.err
+    assert "findings: 3, 1 crossing, 2 outside" in outcome.err  # the line is there twice
 
 
 def test_crossings_of_cartographic_objects_are_found(midrib: Runner, tmp_path: Path) -> None:

@@ -153,6 +153,32 @@ def test_refused_slopes_are_listed_and_the_rest_is_written(tmp_path: Path, midri
     assert len(pyogrio.read_dataframe(out, layer="strokes")) > 20
 
 
+def test_slopes_that_rise_from_top_to_toe_are_told_and_drawn_all_the_same(
+    tmp_path: Path, midrib: Runner
+) -> None:
+    """Heights are those of the vertices; the note names the first three."""
+    starts = (0, 30, 60, 90)
+    tops = [f"LINESTRING ({x} 8, {x + 20} 8)" for x in starts]
+    note = "note: tops lower than their toes: 4 (0, 1, 2 and 1 more)"
+    drawn = []
+    for toe, top in ((1, 2), (2, 1)):
+        rings = [
+            f"{x} 0 {toe}, {x + 20} 0 {toe}, {x + 20} 8 {top}, {x} 8 {top}, {x} 0 {toe}"
+            for x in starts
+        ]
+        folder = tmp_path / f"{toe}"
+        folder.mkdir()
+        source = register(folder, [f"POLYGON Z (({ring}))" for ring in rings], tops)
+        outcome = midrib("hatch", source, folder / "out.gpkg", "--top", "crest")
+        assert outcome.code == 0
+        assert (note in outcome.err) == (top < toe)
+        strokes = pyogrio.read_dataframe(folder / "out.gpkg", layer="strokes").geometry
+        drawn.append(shapely.force_2d(strokes.to_numpy()))
+    assert shapely.equals_exact(*drawn, tolerance=0.0).all()
+    problems = pyogrio.read_dataframe(tmp_path / "2" / "out.gpkg", layer="problems")
+    assert problems["problem"].tolist() == ["swapped"] * 4
+
+
 def test_marks_of_problems_can_be_left_out(tmp_path: Path, midrib: Runner) -> None:
     source = register(tmp_path, [*AREAS, BOW_TIE], [*TOPS, "LINESTRING (0 60, 9 69)"])
     marked, plain = tmp_path / "marked.dxf", tmp_path / "plain.dxf"
@@ -280,5 +306,5 @@ def test_standards_are_listed(midrib: Runner) -> None:
     assert outcome.code == 0
     first, *rows = outcome.out.splitlines()
     assert first.split() == ["name", "symbol", "confidence", "for", "source"]
-    assert len(rows) == 16
-    assert rows[3].startswith("iof-104")
+    assert len(rows) == 17
+    assert rows[4].startswith("iof-104")

@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 from shapely import MultiPolygon, Polygon, box
 
 import midrib
-from midrib.curves import usual
+from midrib.curves import parts, usual
+from midrib.curves.lines import lines_at_once
 from midrib.errors import ParameterError
 from midrib.ragged import pack_rings
 from midrib.strip import PLANE
@@ -113,6 +114,26 @@ def test_triangles_show_no_invalid_area_to_be_valid(name: str) -> None:
     assert not shapely.is_valid(area)
     assert not is_shown_valid(area)
     assert usual.line_of_one(area) is None
+
+
+@pytest.mark.filterwarnings("ignore:invalid value encountered")
+def test_invalid_areas_are_left_to_the_single_steps() -> None:
+    areas = np.array([Polygon(*INVALID[name]) for name in INVALID], dtype=object)
+    assert all(line is None for line in lines_at_once(areas, geographic=False, threads=1))
+
+
+def test_only_areas_that_triangles_leave_open_are_asked_about(
+    areas: "np.ndarray[tuple[int], np.dtype[np.object_]]", monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[Any] = []
+
+    def is_valid(some: Any) -> Any:
+        asked.extend(area for area in some if area is not None and not area.is_empty)
+        return shapely.is_valid(some)
+
+    monkeypatch.setattr(parts, "is_valid", is_valid)
+    midrib.collapse(areas)
+    assert asked == list(areas[-3:])  # rings that touch, Z, several parts
 
 
 @pytest.mark.parametrize("holes", [[], [HOLE], [HOLE, [(9, 2), (9, 4), (11, 3)]]])

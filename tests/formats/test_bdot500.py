@@ -135,6 +135,7 @@ def test_what_is_no_slope_is_told_and_the_others_go_on(tmp_path: Path) -> None:
     assert reasons["line"] == "a ring has fewer than three points"
     places = {problem.id: problem.where for problem in problems if problem.where is not None}
     assert places["off"].coords[0] == off
+    assert places["no top"].coords[0] == places["no end"].coords[0] == CORNERS[0]
     assert places["crossing"].distance(shapely.Point(E0 + 5, N0 + 1)) < 1.0
 
 

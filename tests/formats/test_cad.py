@@ -110,6 +110,17 @@ def test_the_unit_of_a_drawing_is_known(code: int, metres: float, tmp_path: Path
     assert draw_slopes([slope]).metres_per_unit == pytest.approx(metres)
 
 
+def test_joined_lines_are_in_the_order_of_the_file() -> None:
+    """And none is lost where lines are twice there, or cross in their middles."""
+    rows = [LineString([(0, y), (9, y)]) for y in (5.0, 0.0, 22.0, 3.0)]
+    assert [line.coords[0][1] for line in joined(rows)] == [5.0, 0.0, 22.0, 3.0]
+    halves = [LineString([(4, 0), (9, 0)]), rows[0], LineString([(0, 0), (4, 0)])]
+    assert [line.coords[0][1] for line in joined(halves)] == [0.0, 5.0]
+    cross = [LineString([(0, 0), (4, 4)]), LineString([(0, 4), (4, 0)])]
+    assert len(joined(cross)) == 2
+    assert joined([]) == joined([LineString()]) == []
+
+
 def test_pieces_are_joined_whichever_way_they_run() -> None:
     pieces = [LineString([(0, 0), (1, 0)]), LineString([(3, 0), (1, 0)]), level(9)]
     assert sorted(line.length for line in joined(pieces)) == [3.0, 9.0]

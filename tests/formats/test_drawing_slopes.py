@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from shapely import LineString, Polygon, box
+from shapely import LineString, Point, Polygon, box
 
 from midrib.errors import ParameterError
 from midrib.formats.drawing.content import LEFT_OUT, REFUSED, Drawing
@@ -65,6 +65,21 @@ def test_what_is_not_drawn_is_listed_with_its_place() -> None:
     assert "no symbol for an object of kind 'stairs'" in drawing.problems[2].reason
     assert drawing.problems[2].where is not None
     assert drawing.n_refused == 2
+
+
+def test_doubts_about_the_top_are_listed_and_change_nothing() -> None:
+    fall: dict[str, Any] = {"top_heights": np.array([[0.0, 4.0, 168.0]])}
+    toe_heights = np.array([[15.0, 0.0, 170.0]])
+    plain = draw_slopes([slope("a")])
+    for heights, kinds in ((fall | {"toe_heights": toe_heights}, ["swapped"]), (fall, [])):
+        drawing = draw_slopes([slope("a", **heights)])
+        assert [trouble.kind for trouble in drawing.problems] == kinds
+        assert [trouble.where for trouble in drawing.problems] == [Point(15, 0)] * len(kinds)
+        lines = [one.objects[0].symbols.lines for one in (drawing, plain)]
+        assert shapely.equals_exact(*lines, tolerance=0.0).all()
+    short = LineString([(0, 0), (0, 4)]), LineString([(0, 4), (30, 4), (30, 0), (0, 0)])
+    drawing = draw_slopes([Slope("b", "other", box(0, 0, 30, 4), *short, "test")])
+    assert "orientation" in {trouble.kind for trouble in drawing.problems}
 
 
 def test_values_are_for_strokes_of_several_standards_and_for_any_single_one() -> None:

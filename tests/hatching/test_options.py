@@ -1,5 +1,8 @@
 """What each option does, and how wrong ones are refused."""
 
+import sys
+from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,6 +11,7 @@ import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
+from shapely.ops import nearest_points
 
 from midrib import hatch, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
@@ -15,6 +19,10 @@ from midrib.hatching import Rule, add_stroke, delete_stroke, move_stroke
 from midrib.hatching.rule import with_mean_gap
 from midrib.strip import Strip
 from tests.hatching.slopes import annulus, bend, lens, rectangle, ring, trapezium
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "benchmarks"))
+
+from hatch_slopes import one_random
 
 
 def letters(**options: Any) -> str:
@@ -176,11 +184,68 @@ def test_an_added_stroke_goes_through_its_point() -> None:
     assert less.spacing == pytest.approx(hatching.spacing)
 
 
+@pytest.mark.parametrize("seed", [3002, 3005])
+def test_added_strokes_go_between_their_neighbours(seed: int) -> None:
+    """Where strokes are placed anew, in other directions than calm ones, too."""
+    hatching = hatch(one_random("deep", seed).strip)
+    whole = hatching.on_toe - hatching.on_top
+    way = np.degrees(np.unwrap(np.arctan2(whole[:, 1], whole[:, 0])))
+    middle = (hatching.on_top + hatching.on_toe) / 2.0
+    for i, at in enumerate((middle[1:] + middle[:-1]) / 2.0):
+        if not hatching.strip.area.covers(Point(at)):
+            continue  # beyond the wall of a bay
+        more = add_stroke(hatching, tuple(at))
+        assert (np.delete(more.on_top, i + 1, axis=0) == hatching.on_top).all()
+        x, y = (more.on_toe - more.on_top)[i + 1]
+        off = (np.degrees(np.arctan2(y, x)) - way[i : i + 2] + 180.0) % 360.0 - 180.0
+        assert off.min() <= 0.5
+        assert off.max() >= -0.5
+
+
+@pytest.mark.parametrize("ratio", [0.3, 0.5])
+def test_an_added_stroke_is_as_long_as_its_kind(ratio: float) -> None:
+    hatching = hatch(rectangle(), short_ratio=ratio)
+    for is_long in (True, False):
+        more = add_stroke(hatching, (21.5, 10.0), is_long=is_long)
+        (row,) = np.flatnonzero(abs(more.on_top[:, 0] - 21.5) < 1e-9)
+        share = shapely.length(more.strokes[row]) / more.width[row]
+        assert share == pytest.approx(1.0 if is_long else ratio)
+
+
+def test_strokes_that_would_end_on_a_side_are_refused() -> None:
+    """Beside the slanted ends of a slope."""
+    strip = Strip(LineString([(0, 10), (100, 10)]), LineString([(40, 0), (140, 0)]))
+    hatching = hatch(strip)
+    for at in ((2.0, 9.0), (138.0, 1.0)):
+        with pytest.raises(ParameterError, match="no stroke of the slope leads through"):
+            add_stroke(hatching, at)
+    assert len(add_stroke(hatching, (71.3, 5.0)).strokes) == len(hatching.strokes) + 1
+
+
 def test_a_moved_stroke_stays_what_it_is() -> None:
     moved = move_stroke(hatch(rectangle()), 3, (21.5, 10.0))
     assert moved.on_top[3] == pytest.approx([21.5, 10.0])
     assert not moved.is_long[3]
     assert len(moved.strokes) == 19
+
+
+@pytest.mark.parametrize("shape", [rectangle, bend, annulus])
+def test_points_past_an_edge_are_on_no_stroke(shape: Callable[[], Strip]) -> None:
+    """However near to the line of a stroke, but for what clicks and decimals are off by."""
+    hatching = hatch(shape())
+    start, end = (  # between two strokes
+        np.array(nearest_points(edge, Point((ends[4] + ends[5]) / 2.0))[0].coords[0])
+        for edge, ends in (
+            (hatching.strip.main, hatching.on_top),
+            (hatching.strip.auxiliary, hatching.on_toe),
+        )
+    )
+    for share in (-0.009, 0.0, 0.5, 1.0, 1.009):
+        more = add_stroke(hatching, tuple(start + share * (end - start)))
+        assert len(more.strokes) == len(hatching.strokes) + 1
+    for share in (-0.9, -0.03, 1.03, 1.5):
+        with pytest.raises(ParameterError, match="no stroke of the slope leads through"):
+            add_stroke(hatching, tuple(start + share * (end - start)))
 
 
 def test_editing_a_closed_slope() -> None:
@@ -266,6 +331,22 @@ def test_the_rule_of_the_mean_has_one_gap_and_the_standards_bounds() -> None:
     assert abs((h := hatch(wedge, rule="mean", top_share=0.0)).on_toe - h.on_top)[:, 0].max() > 0.3
     assert hatch(wedge, rule="mean", min_spacing=8.0).rule.least_gap == 4.0
     assert hatch(wedge, rule="mean", max_spacing=2.0).rule.least_gap == 1.0
+
+
+def test_a_standard_may_have_the_rule_of_the_mean() -> None:
+    wedge = Strip(LineString([(0, 0), (40, 0)]), LineString([(0, -2), (40, -8)]))
+    mine = standard("pl-2021-slope-reinforced", rule="mean")
+    several: list[dict[str, Any]] = [{}, {"factor": 0.8}, {"top_share": 0.5}]
+    for options in several:
+        ours, asked = hatch(wedge, mine, **options), hatch(wedge, rule="mean", **options)
+        assert (ours.on_top == asked.on_top).all()
+        assert (ours.on_toe == asked.on_toe).all()
+    plain = hatch(wedge, mine, rule="matching")
+    assert (plain.on_top == hatch(wedge).on_top).all()
+    # A gap of one's own holds, and strokes are at right angles to the top all the same.
+    fixed = hatch(wedge, mine, spacing=4.0)
+    assert fixed.rule.least_gap == 2.0
+    assert abs((fixed.on_toe - fixed.on_top)[:, 0]).max() < 0.1
 
 
 # -- refusals --------------------------------------------------------------------------------------

@@ -110,6 +110,46 @@ def test_slopes_that_touch_are_alone() -> None:
     assert {own["start"] for own in told[:3]} == {"left"}
 
 
+@pytest.mark.parametrize(
+    ("first", "last", "is_shared"), [(35, 95, False), (25, 85, True), (20, 30, True)]
+)
+def test_an_edge_is_shared_if_half_of_the_shorter_one_is(
+    first: float, last: float, is_shared: bool
+) -> None:
+    """If so, the other side starts at the same end, which is on its right."""
+    up = slope("a", LineString([(0, 0), (60, 0)]), LineString([(0, 6), (60, 6)]))
+    down = slope("b", LineString([(first, 0), (last, 0)]), LineString([(first, -6), (last, -6)]))
+    told = [own["start"] for own in in_step([up, down], {}, "meet")]
+    assert told == ["left", "right" if is_shared else "left"]
+
+
+def test_the_longest_part_in_common_decides() -> None:
+    """One neighbour is above the edge and one below, so that they start at other ends of it."""
+    short = slope("a", LineString([(0, 0), (20, 0)]), LineString([(0, 6), (20, 6)]))
+    long = slope("b", LineString([(20, 0), (60, 0)]), LineString([(20, -6), (60, -6)]))
+    last = slope("c", LineString([(0, 0), (60, 0)]), LineString([(0, -6), (60, -6)]))
+    for others in ([short, long], [long, short]):
+        assert in_step([*others, last], {}, "meet")[2]["start"] == "left"
+    assert in_step([short, last], {}, "meet")[1]["start"] == "right"
+
+
+def test_slopes_beside_a_closed_edge_are_alone() -> None:
+    ring = LineString([(0, 0), (60, 0), (60, 60), (0, 60), (0, 0)])
+    hole = LineString([(20, 20), (40, 20), (40, 40), (20, 40), (20, 20)])
+    pit = Slope("r", "other", Polygon(ring, [hole.coords]), hole, ring, "")
+    for points in ([(0, 0), (60, 0)], [(60, 0), (0, 0)]):
+        below = slope("b", LineString([(x, -6) for x, _ in points]), LineString(points))
+        assert [own["start"] for own in in_step([pit, below], {}, "meet")] == ["left"] * 2
+
+
+def test_every_second_slope_of_a_row_is_half_a_gap_on() -> None:
+    ways = ((12.0, 18.0), (12.0, 6.0), (0.0, 6.0), (0.0, -6.0))  # down and up in turn
+    row = [slope(f"{top}", level(top, 60), level(toe, 60)) for top, toe in ways]
+    for offset, other in ((1.0, 0.5), (0.4, 0.9)):
+        told = in_step(row, {"offset": offset}, "between")
+        assert [own["offset"] for own in told] == pytest.approx([offset, other] * 2)
+
+
 def test_no_other_way_is_known() -> None:
     with pytest.raises(ParameterError, match="shared is 'no', expected 'meet' or 'between'"):
         draw_slopes([], shared="no")  # type: ignore[arg-type]

@@ -27,9 +27,9 @@ def written(folder: Path, text: str, name: str = "mine") -> Path:
 def test_every_file_is_a_standard_that_is_listed() -> None:
     names = [known.name for known in standards()]
     assert names == sorted(path.stem for path in FOLDER.iterdir())
-    assert len(names) == 16
+    assert len(names) == 17
     assert [standard(name) for name in names] == standards()
-    assert len({*standards()}) == 16
+    assert len({*standards()}) == 17
 
 
 @pytest.mark.parametrize("known", standards(), ids=lambda known: known.name)
@@ -71,6 +71,7 @@ def test_a_preset_is_readable_on_paper(known: Standard) -> None:
     + [
         ("pl-2021-wall", {"spacing": 11.0, "pair": 1.0, "angle": 45.0}),
         ("pl-2021-stairs", {"spacing": 1.0}),
+        ("gml-explorer-like", {"rule": "mean", "factor": 0.5, "pattern": "SL"}),
         (
             "de-general",
             {"factor": 0.5, "gentle_factor": 1.0, "gentle_run": 1.5, "wedge_below": 1.0},

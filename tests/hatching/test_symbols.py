@@ -122,6 +122,47 @@ def test_a_fork_is_as_deep_as_wide() -> None:
     assert tail.equals(shapely.LineString([(2.5, 5.4), (2.5, 3)]))
 
 
+def test_the_fork_of_a_short_stroke_takes_half_of_it() -> None:
+    chords = rectangle(
+        standard("pl-2021-slope-unreinforced", symbol="y", symbol_width=WIDE), short=0.1
+    )
+    found = symbols(chords)
+    fork, tail = found.lines[found.line_stroke == 1]
+    assert fork.coords[1] == pytest.approx((2.5, 5.7))
+    assert tail.length == pytest.approx(0.3)
+
+
+@kinds
+@shapes
+def test_nothing_is_drawn_twice_in_a_place(shape: str, kind: str) -> None:
+    """No line without a length, no point of an area twice."""
+    flat = drawn(shape, kind)[1].flat()
+    assert (shapely.length(flat.lines) > 0.0).all()
+    ink = np.array([*flat.lines, *flat.areas])
+    plain = shapely.remove_repeated_points(ink)
+    assert (shapely.get_num_coordinates(plain) == shapely.get_num_coordinates(ink)).all()
+
+
+@kinds
+def test_strokes_without_a_length_do_no_harm(kind: str) -> None:
+    known = standard("pl-2021-slope-unreinforced", symbol=kind, symbol_width=WIDE)
+    flat = symbols(rectangle(known, short=0.0)).flat()
+    corners = shapely.get_coordinates([*flat.lines, *flat.areas])
+    assert np.isfinite(corners).all()
+
+
+def test_heads_are_as_large_as_fits() -> None:
+    """Strokes go outward 3 degrees apart; a head takes 0.49 of the way to the next one.
+
+    It may lie two radii below the top.
+    """
+    (heads,) = drawn("dense_ring", "tadpole")[1].placed
+    apart = 0.49 * np.sin(np.radians(3.0))
+    radius = 6.0 * apart / (1.0 - 2.0 * apart)
+    assert heads.size.max() <= 2.0 * radius * 1.001  # the ring is a polygon
+    assert heads.size.min() >= 2.0 * radius * 0.96
+
+
 def test_heads_are_discs_below_the_top() -> None:
     _, found = drawn("rectangle", "tadpole")
     (heads,) = found.placed

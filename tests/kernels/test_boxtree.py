@@ -12,6 +12,7 @@ from tests.kernels.calling import callable_from_python
 
 box_tree = callable_from_python(kernels.box_tree)
 nearest_on_chain = callable_from_python(kernels.nearest_on_chain)
+nearest_share = callable_from_python(kernels.nearest_share)
 
 Floats = NDArray[np.float64]
 pairs = st.tuples(st.integers(-20, 20), st.integers(-20, 20))
@@ -22,6 +23,42 @@ def chain_of(points: list[tuple[int, int]]) -> tuple[Floats, Floats, Floats]:
     kept = [p for i, p in enumerate(points) if i == 0 or p != points[i - 1]]
     x, y = np.array(kept, dtype=np.float64).T.copy()
     return x, y, np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(x), np.diff(y)))])
+
+
+def plain_share(
+    p: tuple[float, float], a: tuple[float, float], b: tuple[float, float],
+    first: float, last: float,
+) -> tuple[float, int]:  # fmt: skip
+    """Share of the segment a b, case by case, and its kind: VERTEX at first, LIMIT at last."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    squared = dx * dx + dy * dy
+    foot = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / squared if squared > 0.0 else 0.0
+    if foot <= first:
+        return first, VERTEX
+    return (last, LIMIT) if foot >= last else (foot, FOOT)
+
+
+@given(
+    p=pairs, a=pairs, b=pairs, shares=st.tuples(st.floats(0.0, 1.0), st.floats(0.0, 1.0)),
+    is_cut=st.booleans(),
+)  # fmt: skip
+@settings(max_examples=400)
+def test_shares_are_bit_by_bit_those_of_the_plain_cases(
+    p: tuple[int, int],
+    a: tuple[int, int],
+    b: tuple[int, int],
+    shares: tuple[float, float],
+    is_cut: bool,
+) -> None:
+    first, last = sorted(shares) if is_cut else (0.0, 1.0)
+    at, start, stop = ((x / 3.0, y / 3.0) for x, y in (p, a, b))
+    share, kind = nearest_share(*at, *start, *stop, first, last, VERTEX, LIMIT)
+    expected, expected_kind = plain_share(at, start, stop, first, last)
+    assert (share.hex(), int(kind)) == (expected.hex(), expected_kind)
+
+
+def test_a_repeated_vertex_is_its_own_foot() -> None:
+    assert nearest_share(5.0, 3.0, 1.0, 1.0, 1.0, 1.0, 0.0, 1.0, VERTEX, LIMIT) == (0.0, VERTEX)
 
 
 def by_tree(

@@ -3,6 +3,7 @@
 from collections import Counter
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,8 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shapely import LineString, Polygon, affinity, box
 
-from midrib.kernels.mesh import Mesh
-from midrib.kernels.triangulation import BLOCK, coarse_to_fine
+from midrib.kernels.gathering import gather_inside
+from midrib.kernels.insertion import BLOCK, FACE, coarse_to_fine, insert_all
+from midrib.kernels.jit import njit
+from midrib.kernels.mesh import Mesh, next_boundary_side
+from midrib.kernels.triangulation import force_rings, within_triangle
 from midrib.layout import Boundary, boundary_of
 from midrib.ragged import rings_of_area
 from tests.kernels.calling import callable_from_python
@@ -236,3 +240,81 @@ def test_vertices_go_in_coarse_to_fine(n: int) -> None:
         assert when[p - step] < when[p]
         if step < stride and p + step < n:
             assert when[p + step] < when[p]
+
+
+@callable_from_python
+@njit()
+def in_both_ways(x: Any, y: Any, ring_next: Any) -> Any:
+    """What is inside, gathered at once, and found by forcing segments in."""
+    n = x.size
+    same, touches = np.full(n, -1), np.full(n, -1)
+    xy = within_triangle(x, y)
+    face, out = np.empty(FACE * (2 * n + 1), np.int32), np.empty(n + 3, np.uint32)
+    count = insert_all(n, xy, face, out, same)
+    inside = gather_inside(count, ring_next, same, face)
+    return inside, force_rings(count, x, y, xy, ring_next, same, touches, face, out)
+
+
+def check_both_ways(area: Polygon) -> bool:
+    """Whether all segments were edges; then both ways agree, to the order of triangles."""
+    rings, _ = rings_of_area(area)
+    inside, forced = in_both_ways(rings.x, rings.y, rings.ring_next)
+    if inside.is_done:
+        assert forced[0] == 0
+        assert forced[-1]
+        for one, other in zip(inside[1:], forced[1:4], strict=True):
+            assert np.array_equal(one, other)
+    return bool(inside.is_done)
+
+
+@pytest.mark.parametrize("name", VALID)
+def test_named_areas_are_gathered_as_they_are_forced(name: str) -> None:
+    check_both_ways(VALID[name])
+
+
+@given(area=st.one_of(areas, with_holes()))
+@settings(max_examples=200)
+def test_areas_are_gathered_as_they_are_forced(area: Polygon) -> None:
+    check_both_ways(area)
+
+
+def test_densely_drawn_areas_are_gathered() -> None:
+    """With holes too: the short way is taken where it can be."""
+    shell, hole = box(0, 0, 90, 30), box(40, 10, 50, 20)
+    assert check_both_ways(shell.difference(hole).segmentize(2.0))
+
+
+@pytest.mark.parametrize(
+    "area",
+    [
+        Polygon([(0, 0), (9, 0), (9, 3), (0, 3)], [[(20, 1), (20, 2), (21, 2), (21, 1)]]),
+        Polygon([(0, 0), (9, 3), (9, 0), (0, 3)]),
+        Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(0, 0), (3, 4), (4, 3)]]),
+        Polygon(
+            [(0, 0), (9, 0), (9, 9), (0, 9)],
+            [[(1, 1), (8, 1), (8, 8), (1, 8)], [(3, 3), (6, 3), (6, 6), (3, 6)]],
+        ),
+    ],
+    ids=["hole outside", "crossing", "touching", "hole in a hole"],
+)
+def test_rings_that_may_not_be_valid_are_not_gathered(area: Polygon) -> None:
+    assert not check_both_ways(area)
+
+
+onward = callable_from_python(next_boundary_side)
+
+
+@pytest.mark.parametrize("name", VALID)
+def test_the_next_boundary_side_ends_the_fan(name: str) -> None:
+    """Of rings that touch too, where several fans meet in a vertex."""
+    _, mesh = mesh_of(VALID[name])
+    for e in np.flatnonzero(mesh.twin < 0):
+        f = following(int(e))
+        while mesh.twin[f] >= 0:
+            f = following(int(mesh.twin[f]))
+        assert onward(mesh, e) == f
+
+
+def following(e: int) -> int:
+    """Next half-edge of a triangle."""
+    return e - 2 if e % 3 == 2 else e + 1

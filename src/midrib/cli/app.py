@@ -120,7 +120,8 @@ app.command(
     "orientation: doubtful which edge is the top; pieces: the top is stored in pieces; pairs: "
     "doubtful which top goes with which toe; unmatched: strokes are left out, or there is none, in "
     "some place; beyond: strokes exceed a bound there; crossing: strokes of --strokes cross or lie "
-    "on each other.\n\n"
+    "on each other; outside: strokes of --strokes are outside of every slope, or stick out of "
+    "theirs.\n\n"
     "Exit code 0: nothing found; 1: something found; 2: wrong usage.",
     epilog="Examples:\n\nmidrib check BDOT500.gml -o findings.gpkg --figure findings.svg\n\n"
     "midrib check slopes.gpkg --layer slope --top crest:slope_id --strokes hatching\n\n"

@@ -37,7 +37,7 @@ def check(
     told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end, "kind": kind}
     slopes, problems = read_slopes(source, history=history, **told)
     if not slopes and not history and (ended := read_slopes(source, history=True, **told)[0]):
-        report.say(f"note: {len(ended)} slopes have ended, --history checks them")
+        report.say(f"note: slopes that have ended: {len(ended):,}; --history checks them")
     report.announce()
     interrupts.start_work()
     crs = slopes[0].crs if slopes else None

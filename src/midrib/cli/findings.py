@@ -24,7 +24,7 @@ from midrib.formats.reading import Geometries, open_layer
 from midrib.formats.slopes import DRAWING, XML
 from midrib.formats.units import check_same_plane, is_geographic, unit_of
 from midrib.formats.writing import Features, check_free, staged
-from midrib.hatching.checking import Finding
+from midrib.hatching.finding import Finding
 
 if TYPE_CHECKING:
     from midrib.cli.report import Report
@@ -36,6 +36,7 @@ HEADINGS = ("slope", "check", "x", "y", "reason")
 LAYER = "findings"
 DIGITS = 3  # of coordinates on the terminal
 LINE_KINDS = ("Line", "Curve", "Unknown", "GeometryCollection")
+LINE_TYPES = (shapely.GeometryType.LINESTRING, shapely.GeometryType.LINEARRING)
 WIDEST = 10_000  # characters of a line that nobody looks at
 
 
@@ -182,5 +183,5 @@ def drawn_strokes(strokes: str, source: Path, crs: str | None) -> Geometries:
     with open_layer(path, layer) as features:
         check_same_plane(features.crs, crs, f"--strokes {strokes!r}")
         parts = [shapely.get_parts(batch.geometries) for batch in features.batches()]
-    lines: Geometries = np.concatenate(parts)
-    return lines
+    every: Geometries = np.concatenate(parts)
+    return every[np.isin(shapely.get_type_id(every), LINE_TYPES)]

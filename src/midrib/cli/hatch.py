@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from midrib.cli import options as cli
-from midrib.cli.options import DrawingRule, SharedEdges, StartSide
+from midrib.cli.options import SharedEdges, StartSide
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -19,8 +19,10 @@ if TYPE_CHECKING:
 __all__ = ["hatch"]
 
 MOST_LISTED = 10  # problems told on the terminal
+MOST_NAMED = 3  # objects that a note names
 TOLD = {  # what kinds of problems are called
     "left out": "objects left out",
+    "swapped": "tops lower than their toes",
     "unmatched": "places where strokes are left out or cut short",
     "beyond": "places where strokes exceed a bound",
 }
@@ -48,7 +50,7 @@ def hatch(
     end_strokes: cli.EndStrokes = False,
     stiffness: cli.Stiffness = None,
     top_share: cli.TopShare = None,
-    rule: cli.RuleOption = DrawingRule.matching,
+    rule: cli.RuleOption = None,
     layer: cli.Layer = None,
     top: cli.Top = None,
     toe: cli.Toe = None,
@@ -85,8 +87,9 @@ def hatch(
         stiffness=stiffness,
         top_share=top_share,
         offset=offset,
+        rule=rule and rule.value,
     )
-    options |= {"start": from_side.value, "end_strokes": end_strokes, "rule": rule.value}
+    options |= {"start": from_side.value, "end_strokes": end_strokes}
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)
@@ -182,4 +185,12 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         report.say(f"refused: {len(listed) - MOST_LISTED:,} more")
     for kind, number in found.items():
         if kind != REFUSED:
-            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,}")
+            named = first_of([trouble.id for trouble in drawing.problems if trouble.kind == kind])
+            report.say(f"note: {TOLD.get(kind, f'doubts, {kind}')}: {number:,} ({named})")
+
+
+def first_of(names: list[str]) -> str:
+    """Name the first few of some objects, each once, and count the rest."""
+    known = list(dict.fromkeys(names))
+    more = f" and {len(known) - MOST_NAMED:,} more" if len(known) > MOST_NAMED else ""
+    return ", ".join(known[:MOST_NAMED]) + more

@@ -4,6 +4,7 @@ from operator import is_
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import shapely
 from shapely import LineString, MultiLineString, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
@@ -12,7 +13,7 @@ from midrib.checks import check_flag
 from midrib.curves.aftercare import Aftercare, aftercare, tend
 from midrib.curves.connecting import make_joints, plan_joints, straightened
 from midrib.curves.finding import Finder
-from midrib.curves.lines import lines_of
+from midrib.curves.lines import is_usual, lines_at_once, lines_of
 from midrib.curves.log import Log, check_on_error
 from midrib.curves.methods import finder_of
 from midrib.curves.parts import Part, filled_parts, polygons_of, refused_parts, valid_parts
@@ -182,20 +183,27 @@ def collapse_all(
     fills: bool,
 ) -> "Areas":
     """Lines of a flat array of areas."""
+    lines: Areas = np.full(areas.size, None, dtype=object)
+    if is_usual(find) and along is None and not (connect or fills or care.is_wanted):
+        lines = lines_at_once(areas, geographic, threads)
+    is_open = shapely.is_missing(lines)
+    areas = areas.copy()
+    areas[~is_open] = None
     parts = filled_parts(valid_parts(areas, log)) if fills else list(valid_parts(areas, log))
-    lines: Areas = np.empty(areas.size, dtype=object)
-    lines[:] = [empty_like(area) for area in areas]
-    found: list[list[LineString]] = [[] for _ in range(areas.size)]
+    found: dict[int, list[LineString]] = {}
     tended = lines_of_parts(
         parts, areas, find, along, geographic, log, care, threads, connect=connect
     )
     for part, line in zip(parts, tended, strict=True):
         if line is not None:
-            found[part.area].append(line)
-    for i, pieces in enumerate(found):
-        if pieces:
-            is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
-            lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
+            found.setdefault(part.area, []).append(line)
+    for i in np.flatnonzero(is_open).tolist():
+        pieces = found.get(i)
+        if pieces is None:
+            lines[i] = empty_like(areas[i])
+            continue
+        is_multi = isinstance(areas[i], MultiPolygon) or len(pieces) > 1
+        lines[i] = MultiLineString(pieces) if is_multi else pieces[0]
     return lines
 
 

@@ -105,7 +105,7 @@ def lines_of_run(
     return Lines(points, offsets, loops)
 
 
-def usual_lines(packed: Packed, scales: "Floats", threads: int) -> Usual:
+def usual_lines(packed: Packed, scales: "Floats", threads: int, *, are_known: bool = True) -> Usual:
     """Lines of areas; the same ones, bit by bit, for any number of threads.
 
     Parameters
@@ -113,11 +113,12 @@ def usual_lines(packed: Packed, scales: "Floats", threads: int) -> Usual:
     packed : the areas
     scales : (n, 2) lengths of one unit of x and of y in each; NaN where none is wanted
     threads : how many run at once
+    are_known : whether they are known to be valid; those not shown to be are left out otherwise
     """
     runs = runs_of(packed.ring_offsets[packed.area_offsets])
 
     def found_in(run: tuple[int, int]) -> Lines:
-        return lines_of_run(packed, run, scales)
+        return lines_of_run(packed, run, scales, is_known=are_known)
 
     found: list[Lines] = []
     if min(threads, len(runs)) == 1:

@@ -8,14 +8,14 @@ import shapely
 
 from midrib.figures.draw import AUXILIARY, FILL, MAIN, OUTLINE
 from midrib.figures.paper import sheet_for
-from midrib.hatching.checking import CHECKS
+from midrib.hatching.finding import CHECKS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.figure import Figure
 
-    from midrib.hatching.checking import Finding
+    from midrib.hatching.finding import Finding
     from midrib.hatching.slope import Slope
 
 __all__ = ["draw_checks"]
@@ -23,7 +23,7 @@ __all__ = ["draw_checks"]
 # Of CHECKS in turn.
 COLOURS = (
     *("#555555", "#8e44ad", "#e08a00", "#1e9e58"),
-    *("#8a6d3b", "#d6428c", "#111111", "#f0b400", "#00a3b4"),
+    *("#8a6d3b", "#d6428c", "#111111", "#f0b400", "#00a3b4", "#a4c400"),
 )
 EDGE, DOT = 0.2, 1.8  # millimetres
 

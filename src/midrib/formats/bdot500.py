@@ -120,15 +120,19 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
     InvalidAreaError
         If a top or an area is missing that has to be there, or cannot be read.
     """
-    tops, is_slope = tops_of(feature), gml.local(feature) in SLOPES
+    try:
+        tops = tops_of(feature)
+    except SlopeError as error:
+        raise SlopeError(str(error), place_of(areas_of(feature))) from error
+    is_slope = gml.local(feature) in SLOPES
     if not tops and not is_slope:
         return
-    areas = [area for e in feature if gml.local(e) == "geometria" for area in gml.areas_in(e)]
+    areas = areas_of(feature)
     if not tops or not areas:
         if is_slope:
             wanted = "a polygon" if tops else f"{TOPS[0][0]} and {TOPS[0][1]}, or {ALONG}"
             msg = f"it has no {'area' if tops else 'top'}, expected {wanted}"
-            raise SlopeError(msg, shapely.get_coordinates(areas)[0] if areas else None)
+            raise SlopeError(msg, place_of(areas))
         return
     model = "2015" if feature.tag.startswith(f"{{{MODEL_2015}") else "2021"
     name, said = gml.local(feature), {"gml_id": gml.identifier(feature)} | gml.leaves(feature)
@@ -151,6 +155,22 @@ def add_slopes(found: Gathered, feature: "_Element") -> None:
         )
 
     found.add_sides(gml.identifier(feature), areas, tops, slope)
+
+
+def areas_of(feature: "_Element") -> list[Polygon]:
+    """Areas of an object.
+
+    Raises
+    ------
+    InvalidAreaError
+        If one cannot be read.
+    """
+    return [area for e in feature if gml.local(e) == "geometria" for area in gml.areas_in(e)]
+
+
+def place_of(areas: list[Polygon]) -> "Floats | None":
+    """Return where an object is that is refused, None if it has no area."""
+    return shapely.get_coordinates(areas)[0] if areas else None
 
 
 def tops_of(feature: "_Element") -> list[Top]:

@@ -41,11 +41,19 @@ NAMES = ("top", "toe")
 
 
 def joined(pieces: Sequence[LineString]) -> list[LineString]:
-    """Lines that pieces make where just two of them meet, whichever way each runs."""
-    if not pieces:
+    """Lines that pieces make where just two of them meet, whichever way each runs.
+
+    They are in the order of their first pieces, so that slopes and reasons are numbered as the
+    lines of the file are.
+    """
+    known = [piece for piece in pieces if piece.length > 0.0]
+    if not known:
         return []
-    merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(list(pieces))))
-    return [line for line in merged if line.length > 0.0]
+    merged = shapely.get_parts(shapely.line_merge(shapely.multilinestrings(known)))
+    middles = shapely.line_interpolate_point(known, 0.5, normalized=True)
+    first = shapely.STRtree(merged).nearest(middles).tolist()
+    rows = dict.fromkeys([*first, *range(len(merged))])  # all, where some lie on each other too
+    return [merged[row] for row in rows]
 
 
 def add_pairs(

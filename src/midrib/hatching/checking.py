@@ -1,16 +1,17 @@
 """Checks of slopes before they are hatched, and of strokes that somebody has drawn."""
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
-from shapely import Point
+from shapely import LineString, MultiLineString, Point
 
 from midrib import interrupts
-from midrib.errors import InvalidAreaError
+from midrib.errors import GeometryTypeError, InvalidAreaError
 from midrib.hatching.draw import draw
+from midrib.hatching.existing import crossings, outside
+from midrib.hatching.finding import CHECK_OF, CHECKS, Finding
 from midrib.hatching.keys import STROKED
 from midrib.hatching.sharing import in_step
 from midrib.hatching.slope import Slope, SlopeProblem
@@ -21,44 +22,10 @@ if TYPE_CHECKING:
 
     from midrib.types import Floats
 
-__all__ = ["CHECKS", "CHECK_OF", "Finding", "check_slopes", "falls"]
+__all__ = ["check_slopes", "doubts", "falls"]
 
-CHECKS = {
-    "refused": "no slope, for want of a top, an area or good coordinates",
-    "swapped": "the top is lower than the toe",
-    "off-ring": "an edge, or its start or end, is off the boundary",
-    "orientation": "it is doubtful which edge is the top",
-    "pieces": "the top is stored in pieces: they were joined, or one was left out",
-    "pairs": "lines alone do not tell which top goes with which toe",
-    "unmatched": "strokes are left out or cut short, or there is none, in some place",
-    "beyond": "strokes that are drawn exceed a bound, since the edges let none keep it",
-    "crossing": "strokes that are drawn cross or lie on each other",
-}
 MOST_UNEQUAL = 4.0  # an edge over the other: 3.2 is the most in 134 slopes that surveyors measured
 ON_BOUNDARY = 1e-9  # of the extent: what a file loses of a place
-CHECK_OF = {"missing": "unmatched", "beyond": "beyond"}  # by the kinds of a hatching's problems
-MEET_IN_ENDS = "F********"  # DE-9IM: two strokes have no inner point in common
-
-
-@dataclass(frozen=True)
-class Finding:
-    """Something that a check has found.
-
-    Attributes
-    ----------
-    id : str
-        Name of the slope, empty for strokes that are on none.
-    check : str
-        One of ``CHECKS``.
-    reason : str
-    where : Point or None
-        The place, if there is one.
-    """
-
-    id: str
-    check: str
-    reason: str
-    where: Point | None
 
 
 def check_slopes(
@@ -79,7 +46,8 @@ def check_slopes(
         What ``midrib.read_slopes`` has found; it is listed with the rest.
     strokes : array_like of LineString, optional
         Strokes that are drawn already: those that cross, or lie on each other, are listed, each
-        pair once. That they meet in an end is no fault.
+        pair once, and what is outside of the slopes, if there are any. That they meet in an end is
+        no fault.
     standard : str or Standard, default "pl-2021"
         A standard, a file of one, or the beginning of names: each slope is hatched by the one that
         is made for its kind, as ``midrib hatch`` does without options: what is amiss is listed.
@@ -95,6 +63,8 @@ def check_slopes(
 
     Raises
     ------
+    GeometryTypeError
+        If a stroke is no line.
     ParameterError
         If there is no such standard.
 
@@ -103,6 +73,8 @@ def check_slopes(
     Heights: the top is interpolated between its points of known height, along itself, and compared
     with the toe's points beside it; a slope is swapped if the median difference is negative.
     Orientation: edges of lengths more unequal than 4 to 1 are doubtful, closed ones are not.
+    Outside: a stroke belongs to the slope that holds most of it. Half the width of the standard's
+    line is free, since that covers it; so is what runs along the boundaries of other slopes.
     O(n log n) for n strokes that few others meet.
 
     Examples
@@ -114,18 +86,44 @@ def check_slopes(
     [('swapped', 'POINT (5 0)')]
     """
     found = [Finding(p.id, p.kind, p.reason, p.where) for p in problems]
-    for known in standards_named(standard):  # refuses an unknown one before any work is done
-        known.at(scale)
+    # An unknown standard is refused before any work is done.
+    line = min(known.at(scale).stroke_width for known in standards_named(standard))
+    half_a_line = 0.5 * line * scale / 1000.0 / metres_per_unit
     for slope, options in zip(slopes, in_step(slopes, {}, "meet"), strict=True):
         interrupts.check()
         off_ring = [*boundary(slope)]
-        found += [*heights(slope), *off_ring, *lengths(slope)]
+        found += [*doubts(slope), *off_ring]
         if not off_ring:  # else edges and area do not go together
             at = {"scale": scale, "metres_per_unit": metres_per_unit}
             found += matching(slope, standard, at | options)
-    found += crossings(np.asarray(strokes, dtype=object).ravel(), slopes)
+    drawn = lines_of(strokes)
+    found += crossings(drawn, slopes)
+    found += outside(drawn, slopes, half_a_line) if slopes else ()
     order = {check: k for k, check in enumerate(CHECKS)}
     return sorted(found, key=lambda finding: order[finding.check])
+
+
+def lines_of(strokes: Any) -> "NDArray[np.object_]":
+    """Return strokes as an array of lines, None among them.
+
+    Raises
+    ------
+    GeometryTypeError
+        If one is something else.
+    """
+    lines = np.asarray(strokes, dtype=object).ravel()
+    for row, line in enumerate(lines):
+        if line is not None and not isinstance(line, LineString | MultiLineString):
+            kind = getattr(line, "geom_type", type(line).__name__)
+            msg = f"strokes[{row}] is a {kind}, expected a LineString"
+            raise GeometryTypeError(msg)
+    return lines
+
+
+def doubts(slope: Slope) -> Iterator[Finding]:
+    """Find what makes it doubtful that the top of a slope is its top."""
+    yield from heights(slope)
+    yield from lengths(slope)
 
 
 def falls(slope: Slope) -> "Floats":
@@ -204,19 +202,6 @@ def matching(slope: Slope, standard: Any, options: dict[str, Any]) -> Iterator[F
         return
     for problem in [] if done is None else done.problems:
         yield Finding(slope.id, CHECK_OF[problem.kind], problem.reason, problem.where)
-
-
-def crossings(strokes: "NDArray[np.object_]", slopes: Sequence[Slope]) -> Iterator[Finding]:
-    """Find pairs of strokes that cross or lie on each other, and the slope each is on."""
-    areas = shapely.STRtree([slope.area for slope in slopes])
-    found = shapely.STRtree(strokes).query(strokes, predicate="intersects")
-    for one, other in found.T[found[0] < found[1]]:
-        if shapely.relate_pattern(strokes[one], strokes[other], MEET_IN_ENDS):
-            continue
-        place = shapely.intersection(strokes[one], strokes[other]).representative_point()
-        near = areas.query(place, predicate="intersects")
-        name = slopes[near[0]].id if len(near) else ""
-        yield Finding(name, "crossing", f"strokes {one + 1} and {other + 1} cross", place)
 
 
 def extent(slope: Slope) -> float:

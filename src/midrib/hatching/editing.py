@@ -13,7 +13,7 @@ from midrib.hatching.hatch import Hatching, gaps_between
 from midrib.hatching.laying import Ground
 from midrib.kernels.chords import ON_TOE, ON_TOP
 from midrib.kernels.crossings import meet
-from midrib.kernels.ladder import draw_strokes
+from midrib.kernels.ladder import TAU, THETA, draw_strokes, turn_rungs
 from midrib.ragged import place_text
 from midrib.strip import position
 
@@ -25,6 +25,9 @@ __all__ = ["add_stroke", "delete_stroke", "move_stroke"]
 
 HALVINGS = 60
 ON_STROKE = 1e-6  # of a stroke's length: so near is on it
+PAST_END = (
+    0.01  # of it: so far past an edge is on it still, as clicks and the decimals of files are
+)
 
 
 def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> Hatching:
@@ -36,7 +39,7 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
         By ``rule="matching"``.
     at : Point or pair of float
         A point on the top or in the slope. The stroke goes through it, in the direction that suits
-        the place.
+        the place: between those of the strokes beside it.
     is_long : bool, default True
         Whether it reaches the toe.
 
@@ -58,7 +61,7 @@ def add_stroke(hatching: Hatching, at: "Position", *, is_long: bool = True) -> H
     >>> add_stroke(hatching, (3, 1)).on_top[:, 0].round(6)
     array([ 2.,  3.,  4.,  6.,  8., 10.])
     """
-    ground = ground_of(hatching)
+    ground = as_drawn(hatching, ground_of(hatching))
     point = position(at, "at")
     station, on_top, on_toe = stroke_through(ground, point)
     share = 1.0 if is_long else hatching.rule.short_ratio
@@ -161,6 +164,24 @@ def ground_of(hatching: Hatching) -> Ground:
     return hatching.ground
 
 
+def as_drawn(hatching: Hatching, ground: Ground) -> Ground:
+    """Return the ground with directions that are those of the strokes, between them in proportion.
+
+    Where strokes were mended or placed anew, the calm direction may lead across them.
+    """
+    order = np.argsort(hatching.station)
+    if not order.size:
+        return ground
+    station, ladder = hatching.station[order], ground.ladder
+    calm = draw_strokes(ladder, station, ground.spacing).chord
+    (x, y), (u, v) = (calm[:, 4:6] - calm[:, 2:4]).T, (hatching.on_toe - hatching.on_top)[order].T
+    turn = np.arctan2(x * v - y * u, x * u + y * v)
+    tau = ladder.rungs[:, TAU]
+    period = tau[-1] if ground.middle.is_closed else None
+    theta = ladder.rungs[:, THETA] + np.interp(tau, station, turn, period=period)
+    return ground._replace(ladder=turn_rungs(ladder, theta, ground.spacing))
+
+
 def ends_of(hatching: Hatching) -> "Floats":
     """(n, 4) ends of the strokes as they are drawn."""
     end = hatching.on_top + hatching.share[:, None] * (hatching.on_toe - hatching.on_top)
@@ -194,10 +215,8 @@ def stroke_through(ground: Ground, point: "Floats") -> tuple[float, "Floats", "F
             high = half
     drawn = draw_strokes(ground.ladder, np.array([low]), ground.spacing)
     on_top, on_toe = drawn.chord[0, 2:4], drawn.chord[0, 4:6]
-    near = min(np.hypot(*(point - on_top)), np.hypot(*(point - on_toe)), drawn.chord[0, 6])
-    along = (on_toe - on_top) / drawn.chord[0, 6]
-    t = float((point - on_top) @ along)
-    is_on_it = -near <= t <= drawn.chord[0, 6] + near
+    t = float((point - on_top) @ (on_toe - on_top)) / float(drawn.chord[0, 6]) ** 2
+    is_on_it = -PAST_END <= t <= 1.0 + PAST_END
     if tuple(drawn.on[0]) != (ON_TOP, ON_TOE) or not is_on_it:
         msg = f"no stroke of the slope leads through {place_text(point)}"
         raise ParameterError(msg)

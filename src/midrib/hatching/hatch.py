@@ -11,6 +11,7 @@ from midrib.hatching.laying import Ground
 from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
 from midrib.hatching.rule import MILLIMETRES, Rule, rule_of, with_mean_gap
+from midrib.hatching.standards import standard as standard_named
 from midrib.strip import Strip, check_strip
 
 if TYPE_CHECKING:
@@ -77,7 +78,7 @@ def hatch(
     standard: Any = "pl-2021-slope-unreinforced",
     scale: float = 500.0,
     *,
-    rule: Literal["matching", "mean", "paper"] = "matching",
+    rule: Literal["matching", "mean", "paper"] | None = None,
     metres_per_unit: float = 1.0,
     factor: float | None = None,
     spacing: float | None = None,
@@ -108,13 +109,13 @@ def hatch(
         How strokes are spaced and how long they are, on paper; ``midrib.standards()`` lists them.
     scale : float, default 500
         The map's scale is 1 : ``scale``.
-    rule : {"matching", "mean", "paper"}, default "matching"
-        "matching" is the engine described here. "mean" has one gap for the whole slope, as
-        drawing tools have: the factor times the mean distance of the top's vertices from the toe;
-        strokes are at right angles to the top then. "paper" is the procedure of the paper, for
-        comparison: from the first point of the top on, to the nearest point of the toe that is
-        seen; such strokes may share feet and cross. It has no start, offset, end strokes,
-        stiffness and top share.
+    rule : {"matching", "mean", "paper"}, optional
+        The standard's unless given, which is "matching" for nearly all: the engine described here.
+        "mean" has one gap for the whole slope, as drawing tools have: the factor times the mean
+        distance of the top's vertices from the toe; strokes are at right angles to the top then.
+        "paper" is the procedure of the paper, for comparison: from the first point of the top on,
+        to the nearest point of the toe that is seen; such strokes may share feet and cross. It has
+        no start, offset, end strokes, stiffness and top share.
     metres_per_unit : float, default 1
         Length of a unit of the coordinates.
     factor : float, optional
@@ -150,7 +151,7 @@ def hatch(
         and is calmer under noise; less keeps strokes nearer to the normals of the edges.
     top_share : float, optional
         0: strokes stand to both edges alike; 1: at right angles to the top; between, in
-        proportion. 0 unless given, and 1 with ``rule="mean"``.
+        proportion. 0 unless given, and 1 by the rule "mean".
 
     Returns
     -------
@@ -199,16 +200,20 @@ def hatch(
         standard, scale, metres_per_unit, factor=factor, spacing=spacing, min_spacing=min_spacing,
         max_spacing=max_spacing, pattern=pattern, short_ratio=short_ratio,
     )  # fmt: skip
-    check_asked(Asked(rule, start, offset, end_strokes, stiffness, top_share), first, ground)
+    usual = standard_named(standard).at(scale).rule
+    # With a gap of the caller's, a standard that has the mean keeps the directions of its strokes.
+    takes_mean = rule == "mean" or (rule is None and usual == "mean" and ground.factor is not None)
+    kind = usual if rule is None else rule
+    check_asked(Asked(kind, start, offset, end_strokes, stiffness, top_share), first, ground)
     least = least_length(min_length, ground, scale / MILLIMETRES / metres_per_unit)
-    if rule == "mean":
+    if takes_mean:
         ground = with_mean_gap(ground, strip.main, strip.auxiliary)
     zones = zones_of(exclude)
     where: Ground | None = None
-    if rule == "paper":
+    if kind == "paper":
         drawn = draw_by_paper(strip, ground)
     else:
-        share = float(rule == "mean") if top_share is None else top_share
+        share = float(kind == "mean") if top_share is None else top_share
         drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness, share)
     curves = None if where is None else where.curves
     finished = finish(drawn, ground, least, first, zones, strip, curves, offset)

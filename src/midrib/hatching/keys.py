@@ -19,6 +19,7 @@ CONFIDENCES = {
 STROKED = ("line", "wedge", "triangle", "filled-triangle", "tapered", "y", "tadpole")
 SYMBOLS = (*STROKED, "ticks", "circles", "template")
 SHORTEST, LONGEST = 0.05, 0.95  # short strokes, as shares of long ones
+OF_GAPS = ("matching", "mean")  # rules that a standard may have, of those of ``midrib.hatch``
 OUTLINES = ("all", "top", "none")
 
 
@@ -80,6 +81,7 @@ RULES: dict[str, tuple[Callable[[Any], bool], str]] = {
     "kinds": TEXTS,
     "symbol": among(SYMBOLS),
     "stroke_width": LENGTH,
+    "rule": among(OF_GAPS),
     "factor": NUMBER,
     "spacing": LENGTH,
     "min_spacing": (lambda value: value == 0 or is_length(value), "a length in millimetres"),

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
-from shapely import LineString
+from shapely import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from midrib.hatching.bounds import Curves, Excess, Laid, excesses, far_ends
 from midrib.hatching.chains import chain_of
@@ -19,9 +20,17 @@ if TYPE_CHECKING:
     from midrib.hatching.hatch import Hatching
     from midrib.hatching.rule import Rule
     from midrib.strip import Strip
-    from midrib.types import Bools, Floats
+    from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Measures", "crossings", "measure", "measure_strokes", "untold"]
+__all__ = [
+    "Measures",
+    "crossings",
+    "measure",
+    "measure_strokes",
+    "outside_of",
+    "rounding_of",
+    "untold",
+]
 
 ON_EDGE, ROUNDING = 1e-9, 2.0**-48  # of the extent, and of the coordinates
 
@@ -107,12 +116,8 @@ def measure_strokes(
     on_toe: "Floats",
 ) -> Measures:
     """Measure strokes, whoever drew them, in order along the top."""
-    bounds = np.array(strip.area.bounds)
-    reach = ON_EDGE * float(np.hypot(*(bounds[2:] - bounds[:2]))) + ROUNDING * abs(bounds).max()
-    outside = 0.0
-    if len(strokes) and not shapely.covers(strip.area, strokes).all():
-        near = strip.area.buffer(reach)  # what runs along the boundary is not outside
-        outside = float(shapely.length(shapely.difference(strokes, near)).sum())
+    reach = rounding_of(strip.area)
+    outside = float(shapely.length(outside_of(strokes, strip.area, reach)[0]).sum())
     off = np.maximum(
         shapely.distance(shapely.points(on_top), strip.main),
         shapely.distance(shapely.get_point(strokes, -1), strip.auxiliary),
@@ -137,6 +142,30 @@ def measure_strokes(
         tilts=tilts[laid.gauged[:, LEAN] == MOST_TILT],
         beyond=excesses(laid) + far_ends(laid, least=LEAST_LENGTH * rule.least_gap),
     )
+
+
+def rounding_of(geometry: BaseGeometry) -> float:
+    """How far places may be off by rounding, and by what a file loses of them."""
+    bounds = np.array(geometry.bounds)
+    return float(ON_EDGE * np.hypot(*(bounds[2:] - bounds[:2])) + ROUNDING * abs(bounds).max())
+
+
+def outside_of(
+    strokes: "NDArray[np.object_]", area: Polygon, reach: float
+) -> "tuple[NDArray[np.object_], Ints]":
+    """Parts of strokes that are outside an area, and the row of each.
+
+    What is no farther from the area than a reach, as what runs along its boundary, is not outside.
+    """
+    rows = np.flatnonzero(~shapely.covers(area, strokes))
+    if not rows.size:
+        return np.empty(0, dtype=object), rows
+    grown = area.buffer(reach)
+    shapely.prepare(grown)
+    rows = rows[~shapely.covers(grown, strokes[rows])]
+    parts, of = shapely.get_parts(shapely.difference(strokes[rows], area), return_index=True)
+    is_far = ~shapely.covers(grown, parts)
+    return parts[is_far], rows[of[is_far]]
 
 
 def untold(hatching: "Hatching", found: Measures) -> list[Excess]:

@@ -36,6 +36,9 @@ class Standard:
         What is drawn, one of ``SYMBOLS``.
     stroke_width : float
         Width of the lines of the symbol.
+    rule : str
+        ``"matching"``: gaps are those of the local width; ``"mean"``: one for each slope, by its
+        mean width, and strokes at right angles to the top.
     factor : float or None
         F of the spacing b = F w, for a local width w; None if the spacing is fixed.
     spacing : float or None
@@ -83,6 +86,7 @@ class Standard:
     kinds: tuple[str, ...]
     symbol: str
     stroke_width: float
+    rule: str = "matching"
     factor: float | None = None
     spacing: float | None = None
     min_spacing: float = 0.0

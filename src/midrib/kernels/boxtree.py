@@ -45,13 +45,13 @@ def nearest_share(
         return np.nan, FOOT
     dx, dy = bx - ax, by - ay
     length_squared = dx * dx + dy * dy
-    # A repeated vertex has no direction; its foot is a itself.
-    foot = ((px - ax) * dx + (py - ay) * dy) / length_squared if length_squared > 0.0 else 0.0
-    if foot <= first:
-        return first, kind_first
-    if foot >= last:
-        return last, kind_last
-    return foot, FOOT
+    # Nothing branches, as where feet fall is hard to predict: a tenth of the time of a line. A
+    # repeated vertex has no direction; its foot is a itself.
+    divisor = length_squared if length_squared > 0.0 else 1.0
+    foot = ((px - ax) * dx + (py - ay) * dy) / divisor
+    share = max(first, min(last, foot))
+    kind = kind_last if foot >= last else FOOT
+    return share, kind_first if foot <= first else kind
 
 
 @njit()

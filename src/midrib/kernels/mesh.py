@@ -64,6 +64,9 @@ class Triangulated(NamedTuple):
 def next_boundary_side(mesh: Mesh, e: int) -> int:
     """Return the boundary side that follows e around the inside: the other end of its fan."""
     e = next_side(e)
+    door = mesh.door[mesh.tri[e]]
+    if mesh.other_door[door] < 0:  # there is but one fan, and this is where it ends
+        return door
     while mesh.twin[e] >= 0:
         e = next_side(place(mesh.twin[e]))
     return e
@@ -88,7 +91,10 @@ def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
     of ring vertex k (rings that touch share one), ``touches[k]`` a vertex inside segment k or -1.
     """
     status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(x, y, ring_next)
-    door, other_door = doors(x.size, tri, twin)
+    if is_valid:  # one boundary side leaves each vertex: that on its own segment
+        door, other_door = side_of_segment.copy(), np.full(tri.size, -1, np.intp)
+    else:
+        door, other_door = doors(x.size, tri, twin)
     return Triangulated(
         status, Mesh(x, y, tri, twin, door, other_door), side_of_segment, same, touches, is_valid
     )

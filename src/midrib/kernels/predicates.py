@@ -22,6 +22,7 @@ __all__ = ["in_circle", "orient"]
 ROUNDING = 2.0**-53
 ORIENT_BOUND = (3.0 + 16.0 * ROUNDING) * ROUNDING
 CIRCLE_BOUND = (10.0 + 96.0 * ROUNDING) * ROUNDING
+QUICK_BOUND = (1.0 + 2.0**-40) * CIRCLE_BOUND  # its own sums are rounded too
 SPLITTER = 2.0**27 + 1.0
 
 
@@ -115,6 +116,9 @@ def in_circle(
     ab_1, ab_2 = ax * by, bx * ay
     aa, bb, cc = ax * ax + ay * ay, bx * bx + by * by, cx * cx + cy * cy
     det = aa * (bc_1 - bc_2) + bb * (ca_1 - ca_2) + cc * (ab_1 - ab_2)
+    # As |bx cy| + |cx by| <= (bb + cc) / 2, this is at least what is asked below, and mostly does.
+    if abs(det) > QUICK_BOUND * (aa * bb + bb * cc + cc * aa):
+        return det
     size = (
         aa * (abs(bc_1) + abs(bc_2)) + bb * (abs(ca_1) + abs(ca_2)) + cc * (abs(ab_1) + abs(ab_2))
     )

@@ -1,7 +1,8 @@
 r"""Constrained Delaunay triangulation of the inside of rings.
 
-Vertices go in one at a time, each inserted near a ring neighbour that is already there; then the
-ring segments are forced in; then the triangles to the left of a segment are kept.
+Vertices go in one at a time, see ``insertion``. Mostly all ring segments are edges then, and what
+is inside is gathered at once, see ``gathering``. Else segments are forced in; then the triangles to
+the left of a segment are kept.
 
 half-edge e = 3 t + i    side i of triangle t, from tri[e] to the start of the next side;
                          every triangle turns left
@@ -24,9 +25,11 @@ Signs are exact, so every ring that is simple and touches others in points only 
 
 import numpy as np
 
+from midrib.kernels.gathering import gather_inside
+from midrib.kernels.insertion import FACE, TWIN, insert_all, is_convex, should_flip
 from midrib.kernels.jit import njit
 from midrib.kernels.places import FURTHEST, place
-from midrib.kernels.predicates import in_circle, orient
+from midrib.kernels.predicates import orient
 from midrib.kernels.tables import range_of, with_places
 from midrib.types import Floats, Ints, Places
 
@@ -34,7 +37,6 @@ __all__ = ["triangulate_rings"]
 
 FREE, BLOCKED = -1, -2
 REACH = 2.0**16  # the outer triangle lies so many extents away; it only has to hold every vertex
-COARSE, BLOCK = 8, 1024  # vertices; the triangles of a block fit into the cache
 DELAUNAY_PASSES = 6  # over the edges that constraints disturbed: quality, not correctness
 
 
@@ -97,205 +99,6 @@ def flip_free(e: int, tri: Places, twin: Places, out: Places) -> None:
     join(first + 2, ca, twin)
     join(second, db, twin)
     join(second + 1, bc, twin)
-
-
-@njit(borrows=True)
-def locate(
-    px: float, py: float, e: int, x: Floats, y: Floats, tri: Places, twin: Places
-) -> tuple[int, bool]:
-    """Return a half-edge of the triangle that holds p: the side p lies on, or the first one.
-
-    And whether p lies on it.
-
-    The walk leaves each triangle through a side that has p beyond it; the caller starts it near
-    p. Which side is tried first is drawn anew in every triangle: in a fixed order the walk can
-    go round in circles where flat triangles are Delaunay only up to rounding.
-    Source: O. Devillers, S. Pion, M. Teillaud, Walking in a Triangulation, 2002.
-    """
-    e = place(e)
-    e -= e % 3
-    came_from = -1
-    draw = 1
-    for _ in range(4 * tri.size):
-        moved = False
-        on = -1
-        draw = (draw * 1103515245 + 12345) & 0x7FFFFFFF
-        for turn_of in range(3):
-            k = (turn_of + (draw >> 16)) % 3
-            side = e + k
-            if side == came_from:
-                continue
-            a, b = tri[side], tri[side + 1 if k < 2 else e]
-            turn = orient(x[a], y[a], x[b], y[b], px, py)
-            if turn < 0.0:
-                came_from = place(twin[side])
-                e = came_from - came_from % 3
-                moved = True
-                break
-            if turn == 0.0:
-                on = side
-        if not moved:
-            return (on, True) if on >= 0 else (e, False)
-    return -1, False
-
-
-@njit(inline=True, borrows=True)
-def should_flip(
-    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
-) -> bool:
-    """Whether c-d is the better diagonal of the quadrilateral a d b c, of which a-b is an edge.
-
-    Four vertices of one straight bank lie on a circle up to rounding. Left alone, slivers as long
-    as the bank would stay, and walks through them make the whole quadratic: there a much shorter
-    diagonal is taken, if it lies inside.
-    """
-    inside = in_circle(ax, ay, bx, by, cx, cy, dx, dy)
-    if inside != 0.0:
-        return inside > 0.0
-    old = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
-    new = (cx - dx) * (cx - dx) + (cy - dy) * (cy - dy)
-    return 2.0 * new < old and is_convex(ax, ay, bx, by, cx, cy, dx, dy)
-
-
-@njit(borrows=True)
-def is_convex(
-    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
-) -> bool:
-    """Whether a and b lie strictly on either side of c-d, the diagonal across the edge a-b."""
-    return orient(ax, ay, dx, dy, cx, cy) > 0.0 and orient(dx, dy, bx, by, cx, cy) > 0.0
-
-
-@njit(borrows=True)
-def legalise(
-    p: int,
-    stack: Places,
-    size: int,
-    x: Floats,
-    y: Floats,
-    tri: Places,
-    twin: Places,
-    out: Places,
-) -> None:
-    """Flip the edges across from the new vertex p as long as one should be; p gets each."""
-    while size > 0:
-        size -= 1
-        e = place(stack[place(size)])
-        if twin[e] < 0:
-            continue
-        f = place(twin[e])
-        a, b, d = tri[e], tri[f], tri[previous_side(f)]
-        if should_flip(x[a], y[a], x[b], y[b], x[p], y[p], x[d], y[d]):
-            stack[place(size)], stack[place(size + 1)] = e - e % 3, f - f % 3
-            flip_free(e, tri, twin, out)
-            size += 2
-
-
-@njit(borrows=True)
-def insert_vertex(
-    p: int,
-    near: int,
-    count: int,
-    stack: Places,
-    x: Floats,
-    y: Floats,
-    tri: Places,
-    twin: Places,
-    out: Places,
-) -> tuple[int, int]:
-    """Insert p, walking from the half-edge ``near``.
-
-    Return the number of triangles and the vertex already at that place, or p itself (-1: the
-    walk did not end).
-    """
-    e, on_edge = locate(x[p], y[p], near, x, y, tri, twin)
-    if e < 0:
-        return count, -1
-    e, count = place(e), place(count)
-    a, b, c = tri[e], tri[next_side(e)], tri[previous_side(e)]
-    for v in (a, b, c):
-        if x[v] == x[p] and y[v] == y[p]:
-            return count, v
-    bc, ca, f = twin[next_side(e)], twin[previous_side(e)], twin[e]
-    first = e - e % 3
-    if not on_edge:
-        second, third = 3 * count, 3 * count + 3
-        write_triangle(first, a, b, p, tri, out)
-        write_triangle(second, b, c, p, tri, out)
-        write_triangle(third, c, a, p, tri, out)
-        join(first, f, twin)
-        join(second, bc, twin)
-        join(third, ca, twin)
-        join(first + 1, second + 2, twin)
-        join(second + 1, third + 2, twin)
-        join(third + 1, first + 2, twin)
-        stack[0], stack[1], stack[2] = first, second, third
-        legalise(p, stack, 3, x, y, tri, twin, out)
-        return count + 2, p
-    f = place(f)
-    d = tri[previous_side(f)]
-    ad, db = twin[next_side(f)], twin[previous_side(f)]
-    second, third, fourth = f - f % 3, 3 * count, 3 * count + 3
-    write_triangle(first, b, c, p, tri, out)
-    write_triangle(third, c, a, p, tri, out)
-    write_triangle(second, a, d, p, tri, out)
-    write_triangle(fourth, d, b, p, tri, out)
-    join(first, bc, twin)
-    join(third, ca, twin)
-    join(second, ad, twin)
-    join(fourth, db, twin)
-    join(first + 1, third + 2, twin)
-    join(third + 1, second + 2, twin)
-    join(second + 1, fourth + 2, twin)
-    join(fourth + 1, first + 2, twin)
-    stack[0], stack[1], stack[2], stack[3] = first, second, third, fourth
-    legalise(p, stack, 4, x, y, tri, twin, out)
-    return count + 2, p
-
-
-@njit()
-def coarse_to_fine(n: int) -> tuple[Ints, int]:
-    """Order in which to insert the vertices 0..n-1, and the stride of the first ones.
-
-    Every 2^k-th vertex comes before those between: in plain order a bend of growing curvature
-    makes every new vertex flip all the old ones. The last few halvings are done block by block,
-    so that the triangles there stay in the cache: a sixth of the time for 100,000 vertices.
-    """
-    order, count, stride = np.empty(n, np.intp), 0, 1
-    while stride * 4 < n:
-        stride *= 2
-    for p in range(0, n, stride):
-        order[count] = p
-        count += 1
-    for size, most, least in ((n, stride // 2, COARSE), (BLOCK, COARSE // 2, 1)):
-        for start in range(0, n, size):
-            step = min(most, stride // 2)
-            while step >= least:
-                for p in range(start + step, min(start + size, n), 2 * step):
-                    order[count] = p
-                    count += 1
-                step //= 2
-    return order, stride
-
-
-@njit()
-def insert_all(
-    n: int, x: Floats, y: Floats, tri: Places, twin: Places, out: Places, same: Ints
-) -> int:
-    """Insert the vertices 0..n-1; return the number of triangles, -1 on failure.
-
-    Each starts from the nearest one before it along the ring that is there already.
-    """
-    stack = np.empty(6 * n + 16, np.uint32)
-    write_triangle(0, n, n + 1, n + 2, tri, out)
-    count, near = 1, 0
-    order, stride = coarse_to_fine(n)
-    for p in order:
-        if p > 0:
-            near = out[same[p - min(p & -p, stride)]]
-        count, same[p] = insert_vertex(p, near, count, stack, x, y, tri, twin, out)
-        if same[p] < 0:
-            return -1
-    return count
 
 
 @njit(borrows=True)
@@ -536,11 +339,15 @@ def keep_inside(
     """
     count = place(count)
     row, stack = np.full(count, -1, np.int32), np.empty(count, np.uint32)
+    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
     kept, size = 0, 0
-    for t in range(count):
-        e = 3 * place(t)
-        if max(segment[e], segment[e + 1], segment[e + 2]) >= 0:
-            row[t], stack[kept] = kept, t
+    for e in range(3 * count):
+        if segment[e] >= 0:
+            side_of_segment[segment[e]] = e
+    for k in range(n_segments):  # in order along the rings, see ``gathering``
+        e = side_of_segment[k]
+        if e >= 0 and row[place(e) // 3] < 0:
+            row[place(e) // 3], stack[kept] = kept, place(e) // 3
             kept += 1
     while size < kept:
         e = 3 * place(stack[size])
@@ -553,7 +360,6 @@ def keep_inside(
                     row[t], stack[kept] = kept, t
                     kept += 1
     new_tri, new_twin = np.empty(3 * kept, np.intp), np.empty(3 * kept, np.intp)
-    side_of_segment, is_one_sided = np.full(n_segments, -1, np.intp), True
     for i in range(kept):
         e, new = 3 * place(stack[i]), 3 * place(i)
         for side in range(3):
@@ -565,6 +371,68 @@ def keep_inside(
             is_open = on == FREE and f >= 0
             new_twin[new + side] = 3 * row[place(f) // 3] + place(f) % 3 if is_open else -1
     return new_tri, new_twin, side_of_segment, is_one_sided
+
+
+@njit()
+def within_triangle(x: Floats, y: Floats) -> Floats:
+    """Vertices as x, y, x, y, ...; at the end those of a triangle far around them."""
+    n = x.size
+    xy = np.empty(2 * n + 6)
+    for k in range(n):
+        xy[2 * k], xy[2 * k + 1] = x[k], y[k]
+    (low_x, high_x), (low_y, high_y) = range_of(x), range_of(y)
+    middle_x, middle_y = (low_x + high_x) / 2.0, (low_y + high_y) / 2.0
+    far = REACH * max(high_x - low_x, high_y - low_y)
+    xy[2 * n], xy[2 * n + 1] = middle_x - 2.0 * far, middle_y - far
+    xy[2 * n + 2], xy[2 * n + 3] = middle_x + 2.0 * far, middle_y - far
+    xy[2 * n + 4], xy[2 * n + 5] = middle_x, middle_y + 2.0 * far
+    return xy
+
+
+@njit()
+def unfold(count: int, face: Places, out: Places) -> tuple[Places, Places]:
+    """Return the half-edges of triangles that lie together in the tables above; mend ``out``."""
+    tri, twin = np.empty(3 * count, np.uint32), np.empty(3 * count, np.int32)
+    for t in range(count):
+        for side in range(3):
+            f = face[FACE * t + side + TWIN]
+            tri[3 * t + side] = face[FACE * t + side]
+            twin[3 * t + side] = 3 * (f // FACE) + f % FACE if f >= 0 else -1
+    for v in range(out.size):
+        out[v] = 3 * (out[v] // FACE) + out[v] % FACE
+    return tri, twin
+
+
+@njit()
+def force_rings(
+    count: int,
+    x: Floats,
+    y: Floats,
+    xy: Floats,
+    ring_next: Ints,
+    same: Ints,
+    touches: Ints,
+    face: Places,
+    out: Places,
+) -> tuple[int, Ints, Ints, Ints, Ints, Ints, bool]:
+    """Rings among vertices that are in, as ``triangulate_rings``: whatever rings they are."""
+    n, nothing = x.size, np.empty(0, np.intp)
+    tri, twin = unfold(count, face, out)
+    segment = np.full(tri.size, FREE, np.int32)
+    all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
+    for k in range(n, n + 3):
+        all_x[k], all_y[k] = xy[2 * k], xy[2 * k + 1]
+    status = insert_segments(ring_next, same, touches, all_x, all_y, tri, twin, segment, out)
+    is_touched = False
+    for k in range(n):
+        is_touched = is_touched or touches[k] >= 0
+    if status != 0 or is_touched:
+        return status, nothing, nothing, nothing, same, touches, False
+    kept = keep_inside(count, n, tri, twin, segment)
+    is_valid = kept[3]
+    for k in range(n):
+        is_valid = is_valid and same[k] == k
+    return 0, kept[0], kept[1], kept[2], same, touches, is_valid
 
 
 @njit(entry=True)
@@ -597,29 +465,14 @@ def triangulate_rings(
     n = x.size
     same, touches = np.full(n, -1, np.intp), np.full(n, -1, np.intp)
     nothing = np.empty(0, np.intp)
-    all_x, all_y = with_places(x, n + 3), with_places(y, n + 3)
-    (low_x, high_x), (low_y, high_y) = range_of(x), range_of(y)
-    middle_x, middle_y = (low_x + high_x) / 2.0, (low_y + high_y) / 2.0
-    far = REACH * max(high_x - low_x, high_y - low_y)
-    all_x[n], all_y[n] = middle_x - 2.0 * far, middle_y - far
-    all_x[n + 1], all_y[n + 1] = middle_x + 2.0 * far, middle_y - far
-    all_x[n + 2], all_y[n + 2] = middle_x, middle_y + 2.0 * far
-    size = 3 * (2 * n + 1)
-    if size > FURTHEST:
+    if FACE * (2 * n + 1) > FURTHEST:
         return -1, nothing, nothing, nothing, same, touches, False
-    tri, twin = np.empty(size, np.uint32), np.full(size, -1, np.int32)
-    segment, out = np.full(size, FREE, np.int32), np.zeros(n + 3, np.uint32)
-    count = insert_all(n, all_x, all_y, tri, twin, out, same)
+    xy = within_triangle(x, y)
+    face, out = np.empty(FACE * (2 * n + 1), np.int32), np.empty(n + 3, np.uint32)
+    count = insert_all(n, xy, face, out, same)
     if count < 0:
         return -1, nothing, nothing, nothing, same, touches, False
-    status = insert_segments(ring_next, same, touches, all_x, all_y, tri, twin, segment, out)
-    is_touched = False
-    for k in range(n):
-        is_touched = is_touched or touches[k] >= 0
-    if status != 0 or is_touched:
-        return status, nothing, nothing, nothing, same, touches, False
-    kept = keep_inside(count, n, tri, twin, segment)
-    is_valid = kept[3]
-    for k in range(n):
-        is_valid = is_valid and same[k] == k
-    return 0, kept[0], kept[1], kept[2], same, touches, is_valid
+    inside = gather_inside(count, ring_next, same, face)
+    if inside.is_done:
+        return 0, inside.tri, inside.twin, inside.side_of_segment, same, touches, True
+    return force_rings(count, x, y, xy, ring_next, same, touches, face, out)

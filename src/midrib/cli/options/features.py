@@ -155,8 +155,9 @@ Strokes: TypeAlias = Annotated[
     str | None,
     of_check(
         metavar="LAYER|FILE[:LAYER]",
-        help="Strokes that are drawn already, in IN or in another file: do any cross? Layers of a "
-        "drawing take wildcards, and so do codes of cartographic objects in BDOT500: BUBZ*.",
+        help="Strokes that are drawn already, in IN or in another file: which cross, which are "
+        "outside of the slopes? Layers of a drawing take wildcards, and so do codes of "
+        "cartographic objects in BDOT500: BUBZ*.",
     ),
 ]
 Standard: TypeAlias = Annotated[

@@ -94,7 +94,11 @@ SharedStrokes: TypeAlias = Annotated[
 ]
 EndStrokes: TypeAlias = Annotated[
     bool,
-    of_strokes("--end-strokes", metavar="", help="Strokes on the straight ends of slopes too."),
+    of_strokes(
+        "--end-strokes",
+        metavar="",
+        help="Strokes on the straight ends of slopes too, if they are part of neither edge.",
+    ),
 ]
 Stiffness: TypeAlias = Annotated[
     float | None,
@@ -105,11 +109,12 @@ TopShare: TypeAlias = Annotated[
     of_strokes(metavar="0-1", help="1: at right angles to the top; 0: to both edges alike."),
 ]
 RuleOption: TypeAlias = Annotated[
-    DrawingRule,
+    DrawingRule | None,
     of_strokes(
         "--rule",
         metavar="NAME",
         help="matching; mean: one gap for a slope, by the mean distance of the top's vertices from "
-        "the toe, at right angles to the top; paper, for comparison.",
+        "the toe, at right angles to the top; paper, for comparison. The standard's unless you say "
+        "otherwise, matching for nearly all.",
     ),
 ]

@@ -12,8 +12,9 @@ from midrib.errors import InvalidAreaError, ParameterError
 from midrib.formats.drawing.content import LEFT_OUT, REFUSED, Drawing, Drawn, Trouble
 from midrib.formats.drawing.heights import relief_of
 from midrib.formats.units import METRE, is_geographic, unit_of
-from midrib.hatching.checking import CHECK_OF
+from midrib.hatching.checking import doubts
 from midrib.hatching.draw import draw
+from midrib.hatching.finding import CHECK_OF
 from midrib.hatching.keys import STROKED
 from midrib.hatching.sharing import in_step
 from midrib.hatching.standards import standard_for, standards_named
@@ -114,6 +115,7 @@ def add_slope(
     relief = relief_of(slope.top, slope.toe)
     drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes, relief)
     drawing.objects.append(drawn)
+    drawing.problems += [Trouble(slope.id, d.reason, d.where, d.check) for d in doubts(slope)]
     for problem in [] if strokes is None else strokes.problems:
         trouble = Trouble(slope.id, problem.reason, problem.where, CHECK_OF[problem.kind])
         drawing.problems.append(trouble)
