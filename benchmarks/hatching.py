@@ -225,7 +225,7 @@ def summary(title: str, rows: list[Row]) -> list[str]:
 def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
     """Largest change of direction of a stroke of each slope under noise on its top, in degrees.
 
-    Strokes move along the slope too, so that each is held against directions that the strokes of the
+    Strokes move along the slope too, so that each is held against directions that strokes of the
     calm slope have within half a gap, in proportion between two of them.
     """
     changes = []
