@@ -225,8 +225,8 @@ def summary(title: str, rows: list[Row]) -> list[str]:
 def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
     """Largest change of direction of a stroke of each slope under noise on its top, in degrees.
 
-    Strokes move along the slope too, so that each is held against the directions that the calm
-    slope has within half a gap.
+    Strokes move along the slope too, so that each is held against directions that strokes of the
+    calm slope have within half a gap, in proportion between two of them.
     """
     changes = []
     for i, slope in enumerate(slopes):
@@ -239,16 +239,28 @@ def turned_by_noise(slopes: Iterable[Slope], share: float) -> Floats:
         rungs, line = calm.ground.ladder.rungs, LineString(calm.ground.middle.line)
         pivots = points_at(LineString(moved.ground.middle.line), moved.station)
         at = shapely.line_locate_point(line, shapely.points(pivots))
-        gap = np.interp(at, rungs[:, 0], rungs[:, 6])
+        gap, drawn = np.interp(at, rungs[:, 0], rungs[:, 6]), drawn_directions(calm)
         across = moved.on_toe - moved.on_top
         angle = np.arctan2(across[:, 1], across[:, 0])
         off = [
-            angle - np.interp(at + half * gap, rungs[:, 0], rungs[:, 4])
+            angle - np.interp(at + half * gap, rungs[:, 0], drawn)
             for half in np.linspace(-0.5, 0.5, 5)
         ]
         turned = np.degrees(abs((np.array(off) + np.pi) % (2 * np.pi) - np.pi)).min(axis=0)
         changes.append(turned.max(initial=0.0))
     return np.array(changes)
+
+
+def drawn_directions(hatching: Hatching) -> Floats:
+    """Directions at the rungs of a slope: the ladder's, turned as the strokes beside them are."""
+    assert hatching.ground is not None
+    rungs = hatching.ground.ladder.rungs
+    order = np.argsort(hatching.station)
+    station, across = hatching.station[order], (hatching.on_toe - hatching.on_top)[order]
+    turn = np.arctan2(across[:, 1], across[:, 0]) - np.interp(station, rungs[:, 0], rungs[:, 4])
+    turn = (turn + np.pi) % (2.0 * np.pi) - np.pi
+    directions: Floats = rungs[:, 4] + np.interp(rungs[:, 0], station, turn)
+    return directions
 
 
 def turned_row(name: str, turns: Floats) -> list[str]:

@@ -14,7 +14,8 @@ from midrib.hatching.matching import spacing_of
 from midrib.hatching.measures import measure
 from midrib.hatching.middle import middle_of
 from midrib.hatching.rule import Rule
-from midrib.kernels.ladder import GAP, TAU, build_ladder
+from midrib.kernels.gauging import NORMAL
+from midrib.kernels.ladder import GAP, TAU, THETA, build_ladder
 from midrib.kernels.spacing import place_strokes
 from tests.hatching.slopes import bands, rectangle
 
@@ -39,6 +40,16 @@ def corner(degrees: float) -> Strip:
     inner = np.array([-10.0 * half, 10.0])
     toe = [(-80.0, 10.0), tuple(inner), tuple(80.0 * way + 10.0 * left)]
     return Strip(LineString(top), LineString(toe))
+
+
+def tapering(width: float, power: float) -> Strip:
+    """A lens whose edges leave each other steeply at both ends, more so on the toe's side."""
+    x = np.linspace(0.0, 100.0, 41)
+    y = width * np.sin(np.pi * x / 100.0) ** power
+    y[[0, -1]] = 0.0
+    return Strip(
+        LineString(np.column_stack([x, 0.3 * y])), LineString(np.column_stack([x, -0.7 * y]))
+    )
 
 
 def before(strip: Strip, rule: Rule = RULE) -> Found:
@@ -73,6 +84,18 @@ def test_strokes_far_from_trouble_stay_what_they_are() -> None:
     assert len(far) > 40
     assert far <= new
     assert old - new
+
+
+@pytest.mark.parametrize(("width", "power"), [(12.0, 0.7), (20.0, 0.7), (24.0, 1.0)])
+def test_strokes_that_lean_a_little_too_far_turn_a_little(width: float, power: float) -> None:
+    found = before(tapering(width, power))
+    excess = found.laid(RULE).beyond[:, NORMAL].max()
+    assert 0.0 < excess < np.radians(3.0)
+    placed = improved(found, RULE, 1.0, 0.9).strokes.pivot
+    rungs = found.ground.ladder.rungs
+    calm = np.interp(placed[:, 0], rungs[:, TAU], rungs[:, THETA])
+    assert len(placed) == len(found.kept)
+    assert abs(placed[:, 4] - calm).max() <= excess + np.radians(1.0)
 
 
 @given(strip=bands())

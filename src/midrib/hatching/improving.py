@@ -53,8 +53,8 @@ def improved(found: Found, rule: Rule, offset: float, stiffness: float) -> Found
         inner = (last - first - 1) % kept.size if ground.middle.is_closed else 0
         wanted = Wanted(offset, stretch, stiffness, period, (inner + 1) % period)
         new = choose_places(
-            ground.ladder, found.strokes, ground.spacing, first, last, wanted,
-            ground.middle.periods, allowed, upright,
+            ground.ladder, found.strokes, ground.spacing, first, last,
+            rows_between(found, first, last), wanted, ground.middle.periods, allowed, upright,
         )  # fmt: skip
         if len(new):
             chosen.append((first, last, new))
@@ -90,17 +90,16 @@ def mirrored(
     first, last = with_its_image(*inner[0], found.kept.size)
     low, high = span(found, first, last)
     others = [part for part, (a, b) in spans if not (a < high and low < b)]
-    rows = best.strokes.pivot[best.kept]
-    rows = np.column_stack([rows[:, 0], rows[:, 4] - rows[:, 3]])
-    rows = rows[(rows[:, 0] > low) & (rows[:, 0] < high)]
+    rows = rows_between(best, first, last)
     axis = draw_turned(ladder, np.array([length / 2.0]), np.zeros(1), ground.spacing)
     ends = Strokes(
         *(np.concatenate([old[[first]], new]) for old, new in zip(found.strokes, axis, strict=True))
     )
     allowed, upright = bounds_at_rungs(ground, [(0.0, length)])
     half = choose_places(
-        ladder, ends, ground.spacing, min(first, 0), 1, wanted, periods, allowed, upright
-    )
+        ladder, ends, ground.spacing, min(first, 0), 1, rows[rows[:, 0] < length / 2.0], wanted,
+        periods, allowed, upright,
+    )  # fmt: skip
     halves = [(half, True)] if len(half) else []
     for some in (rows, np.column_stack([length - rows[::-1, 0], -rows[::-1, 1]])):
         for room in AXIS_ROOMS:
@@ -199,6 +198,16 @@ def span(found: Found, first: int, last: int) -> tuple[float, float]:
     low = float(station[first]) if first >= 0 else 0.0
     high = float(station[last]) if last >= 0 else middle.length
     return low, high + (middle.periods[2] if middle.is_closed and high <= low else 0.0)
+
+
+def rows_between(found: Found, first: int, last: int) -> Floats:
+    """Stations and turns of the strokes that stay inside a stretch, on beyond a closed seam."""
+    pivot, period = found.strokes.pivot[found.kept], found.ground.middle.periods[2]
+    low, high = span(found, first, last)
+    ahead = (pivot[:, 0] - low) % period if period > 0.0 else pivot[:, 0] - low
+    inner = np.flatnonzero((ahead > 0.0) & (ahead < high - low))
+    inner = inner[np.argsort(ahead[inner])]
+    return np.column_stack([low + ahead, pivot[:, 4] - pivot[:, 3]])[inner]
 
 
 def stretches(

@@ -22,8 +22,9 @@ __all__ = ["Middle", "lay_out_slope", "middle_of"]
 
 CENTRED = "0.2%"  # of the width: decisions that rounding may change then make no visible difference
 GRID_BITS = 24  # a cell of the grid is so many halvings of the extent
-SIDE, ALONG = 0.5, 0.7  # cosines of the angles with the top at which an edge is a side, or a toe
+SIDE = np.pi / 3.0  # angle with the top from which on an edge is a side
 LONGEST_SIDE = 2.0  # mean widths
+FAR_ALONG = 2.0  # mean widths over which the top has a direction: noise should not decide
 NO_ENDS = EndPoints(
     np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2), dtype=np.intp), np.empty(0)
 )
@@ -133,8 +134,8 @@ def capped(layout: Layout) -> Layout:
     """Layout in which the sides of a slope are caps, where the toe holds them too.
 
     Registers often name the top only, and all else is toe. If the toe leaves the end of the top at
-    60 degrees or more and then turns to run along it, what lies before the turn is a side: the
-    middle line ends halfway along it, not in the corner.
+    60 degrees or more and then turns to run along it, at less, what lies before the turn is a side:
+    the middle line ends halfway along it, not in the corner.
     """
     toe, ends = layout.auxiliary, layout.middle
     point, at = ends.point.copy(), ends.at.copy()
@@ -168,15 +169,16 @@ def sides_of(layout: Layout, top: Chain, toe: Chain) -> int:
         return 0
     x, y = layout.mesh.x, layout.mesh.y
     width = layout.mean_width
-    along = np.array([np.interp(width, top.arc, axis[top.vertex]) for axis in (x, y)])
+    beyond = FAR_ALONG * width
+    along = np.array([np.interp(beyond, top.arc, axis[top.vertex]) for axis in (x, y)])
     along -= x[top.vertex[0]], y[top.vertex[0]]
     for k in range(toe.side.size):
         a, b = toe.vertex[k], toe.vertex[k + 1]
         step = np.array([x[b] - x[a], y[b] - y[a]])
         cosine = float(along @ step / (np.hypot(*along) * np.hypot(*step)))
-        if cosine > ALONG:
+        if cosine > np.cos(SIDE):
             return k
-        if cosine > SIDE or toe.arc[k + 1] > LONGEST_SIDE * width:
+        if toe.arc[k + 1] > LONGEST_SIDE * width:
             return 0
     return 0
 

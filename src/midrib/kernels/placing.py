@@ -1,8 +1,10 @@
 r"""Placing: where strokes are and how they run on a stretch that calm ones do not suit.
 
 At places along the stretch there are fans of chords. Of all sequences of chords that advance on
-both edges the cheapest is looked for (``ways``): how many there are, at which places, and in which
-directions. Then places and directions become finer around the choice.
+both edges the cheapest is looked for (``fans``): how many there are, at which places, and in which
+directions. Then places and directions become finer around the choice. That is done twice: from
+places all along the stretch on, and from the strokes that are there already, which often need to
+be moved a little only, as coarse places do not let them. The cheaper outcome is taken.
 
        first                 last      calm strokes that stay, or an end of the slope
          |  \|/ \|/ \|/ \|/   |
@@ -11,6 +13,8 @@ directions. Then places and directions become finer around the choice.
 place     station along the middle line, counted in rungs of the ladder, on a closed slope on after
           the last one
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,7 +35,7 @@ from midrib.kernels.ladder import (
     follow,
     gap_at,
 )
-from midrib.types import Floats
+from midrib.types import Floats, Ints
 
 __all__ = ["choose_places"]
 
@@ -41,7 +45,18 @@ LIKELY, EQUAL = 2, 1e-9  # directions tried first, on either side; what costs as
 NARROW, NARROWER = 2, 0.5  # directions on either side then, and the step over the one before
 FINE, GRAZE, LEAP_OF_FOOT = np.pi / 90.0, 20.0, 0.5  # steps from which on grazes cost; gaps
 FINER, LEVELS, AGAIN = (-1.0, 0.0, 1.0), 4, 3  # places then, in steps that are halved as well
+ENOUGH = 1.0  # cost
+CALM_COST = 5.0  # for each squared radian from the calm direction
 TILT_WALL, TILT_ROOM = 20_000.0, 0.01  # for each squared radian beyond the bound, but for so much
+
+
+class Stretch(NamedTuple):
+    """Where strokes are placed."""
+
+    first: int  # strokes at its ends, which stay; -1 for an end of the slope
+    last: int
+    low: float  # stations there
+    high: float
 
 
 @njit(borrows=True)
@@ -108,7 +123,7 @@ def open_fans(
     places: Floats,
     half: int,
     step: float,
-    fixed: tuple[int, int],
+    stretch: Stretch,
     periods: Floats,
     allowed: Floats,
     upright: Floats,
@@ -120,7 +135,7 @@ def open_fans(
     turn, feet = np.empty((n, m)), np.empty((n, m, 2))
     width, gap, cost = np.empty((n, m)), np.empty((n, m)), np.full((n, m), np.inf)
     for i in range(n):
-        row = fixed[0] if i == 0 else fixed[1] if i == n - 1 else -1
+        row = stretch.first if i == 0 else stretch.last if i == n - 1 else -1
         if row >= 0:
             tau[i], calm[i] = strokes.pivot[row, 0], strokes.pivot[row, 3]
             most[i] = allowed[min(max(np.searchsorted(rungs[:, TAU], tau[i]), 0), lap)]
@@ -151,7 +166,7 @@ def open_fans(
             feet[i, c, 0], feet[i, c, 1] = chord.s, chord.t
             width[i, c] = effective(chord.width, local)
             gap[i, c] = gap_at(rule, width[i, c])
-            cost[i, c] = turn[i, c] * turn[i, c]
+            cost[i, c] = CALM_COST * turn[i, c] * turn[i, c]
             over = beyond_upright(
                 ladder.crest, chord.s, width[i, c], theta + turn[i, c], upright[k]
             )
@@ -164,6 +179,112 @@ def open_fans(
     return fans
 
 
+@njit()
+def has_ends(stretch: Stretch) -> tuple[int, int]:
+    """1 for each end of a stretch that is a stroke, 0 for an end of the slope."""
+    return 1 if stretch.first >= 0 else 0, 1 if stretch.last >= 0 else 0
+
+
+@njit()
+def places_all_along(rungs: Floats, stretch: Stretch, periods: Floats) -> Floats:
+    """Every other rung of a stretch as a place, and one for each stroke at its ends."""
+    k = 0
+    while station_at(rungs, k, periods)[2] <= stretch.low:
+        k += 1
+    n = 0
+    while station_at(rungs, k + n, periods)[2] < stretch.high:
+        n += 1
+    n = (n + COARSE - 1) // COARSE
+    before, after = has_ends(stretch)
+    found = np.zeros((before + n + after, 2))
+    for i in range(n):
+        found[before + i, 0] = k + COARSE * i
+    return found
+
+
+@njit()
+def places_around(
+    rungs: Floats, chosen: Floats, apart: float, stretch: Stretch, periods: Floats
+) -> Floats:
+    """Places of chosen strokes and so far before and behind, and one for each stroke at the ends.
+
+    What is chosen are places, and turns from the directions there.
+    """
+    before, after = has_ends(stretch)
+    found = np.zeros((before + chosen.shape[0] * len(FINER) + after, 2))
+    n = before
+    for i in range(chosen.shape[0]):
+        for share in FINER:
+            place = chosen[i, 0] + share * apart
+            if stretch.low < station_at(rungs, max(place, 0.0), periods)[2] < stretch.high:
+                found[n, 0], found[n, 1] = place, chosen[i, 1]
+                n += 1
+    return found[: n + after]
+
+
+@njit()
+def at_places(rungs: Floats, known: Floats, periods: Floats) -> Floats:
+    """Strokes with places instead of stations."""
+    found, lap = known.copy(), rungs.shape[0] - 1
+    for i in range(known.shape[0]):
+        laps = np.floor(known[i, 0] / periods[2]) if periods[2] > 0.0 else 0.0
+        tau = known[i, 0] - laps * periods[2]
+        k = min(max(np.searchsorted(rungs[:, TAU], tau, side="right") - 1, 0), lap - 1)
+        share = (tau - rungs[k, TAU]) / (rungs[k + 1, TAU] - rungs[k, TAU])
+        found[i, 0] = laps * lap + k + share
+    return found
+
+
+@njit()
+def chosen_of(way: Ints, fans: Fans, places: Floats, ends: tuple[int, int]) -> Floats:
+    """Places and turns of a sequence of chords, but for those at the ends that stay."""
+    k, m = way.shape[0] - ends[0] - ends[1], fans.turn.shape[1]
+    chosen = np.empty((max(k, 0), 2))
+    for i in range(k):
+        at, c = way[ends[0] + i] // m, way[ends[0] + i] % m
+        chosen[i, 0], chosen[i, 1] = places[at, 0], fans.turn[at, c]
+    return chosen
+
+
+@njit()
+def cheapest_from(
+    ladder: Ladder,
+    strokes: Strokes,
+    rule: Spacing,
+    places: Floats,
+    half: int,
+    stretch: Stretch,
+    wanted: Wanted,
+    periods: Floats,
+    allowed: Floats,
+    upright: Floats,
+) -> tuple[Floats, float]:
+    """Cheapest sequence from some places with so many directions on, ever finer; and its cost.
+
+    It is as ``choose_places`` returns it, but for places instead of stations.
+    """
+    ends, far = has_ends(stretch), ends_of(ladder)
+    step, apart = STEP, COARSE / 2.0
+    for level in range(LEVELS + AGAIN + 1):
+        fans = open_fans(
+            ladder, strokes, rule, places, half, step, stretch, periods, allowed, upright
+        )
+        most = np.inf
+        if half > NARROW:
+            some = middle_of_fans(fans, LIKELY)
+            _, most = cheapest_way(some, ends, wanted, far, periods, most)
+            most *= 1.0 + EQUAL
+        way, cost = cheapest_way(fans, ends, wanted, far, periods, most)
+        chosen = chosen_of(way, fans, places, ends)
+        if chosen.shape[0] == 0:
+            return chosen, np.inf
+        if level < LEVELS + AGAIN:
+            places, half = places_around(ladder.rungs, chosen, apart, stretch, periods), NARROW
+            if level < LEVELS:
+                step, apart = step * NARROWER, apart / 2.0
+    return chosen, cost
+
+
 @njit(entry=True)
 def choose_places(
     ladder: Ladder,
@@ -171,6 +292,7 @@ def choose_places(
     rule: Spacing,
     first: int,
     last: int,
+    known: Floats,
     wanted: Wanted,
     periods: Floats,
     allowed: Floats,
@@ -185,6 +307,7 @@ def choose_places(
     rule : for gaps
     first, last : strokes at the ends of the stretch, calm ones, which stay; -1 for an end of the
         slope
+    known : (k, 2) station, and turn from the direction there, of the strokes between
     wanted : what is asked for besides
     periods : (3,) lengths of top, toe and middle line of a closed slope, 0 of an open one
     allowed : (n,) angle at each rung that neighbours may turn
@@ -201,53 +324,19 @@ def choose_places(
     high = strokes.pivot[last, 0] if last >= 0 else rungs[lap, TAU]
     if periods[2] > 0.0 and high <= low:
         high += periods[2]
-    # 1. The rungs between, and a place for each fixed stroke.
-    k = 0
-    while station_at(rungs, k, periods)[2] <= low:
-        k += 1
-    n = 0
-    while station_at(rungs, k + n, periods)[2] < high:
-        n += 1
-    n = (n + COARSE - 1) // COARSE
-    before, after = (1 if first >= 0 else 0), (1 if last >= 0 else 0)
-    found = np.zeros((before + n + after, 2))
-    for i in range(n):
-        found[before + i, 0] = k + COARSE * i
-    ends = ends_of(ladder)
-    # 2. Places and directions; then finer ones around these.
-    half, step, apart = FAN, STEP, COARSE / 2.0
-    for level in range(LEVELS + AGAIN + 1):
-        fans = open_fans(
-            ladder, strokes, rule, found, half, step, (first, last), periods, allowed, upright
+    stretch = Stretch(first, last, low, high)
+    near = at_places(rungs, known, periods)
+    places = places_around(rungs, near, COARSE / 2.0, stretch, periods)
+    best, least = cheapest_from(
+        ladder, strokes, rule, places, NARROW, stretch, wanted, periods, allowed, upright
+    )
+    if least > ENOUGH:
+        places = places_all_along(rungs, stretch, periods)
+        other, cost = cheapest_from(
+            ladder, strokes, rule, places, FAN, stretch, wanted, periods, allowed, upright
         )
-        most = np.inf
-        if level == 0:
-            some = middle_of_fans(fans, LIKELY)
-            way, most = cheapest_way(some, (before, after), wanted, ends, periods, most)
-            most *= 1.0 + EQUAL
-        way, _ = cheapest_way(fans, (before, after), wanted, ends, periods, most)
-        k = way.shape[0] - before - after
-        if k < 1:
-            return np.empty((0, 2))
-        chosen = np.empty((k, 2))
-        for i in range(k):
-            at, c = way[before + i] // (2 * half + 1), way[before + i] % (2 * half + 1)
-            chosen[i, 0], chosen[i, 1] = found[at, 0], fans.turn[at, c]
-        if level == LEVELS + AGAIN:
-            break
-        m = len(FINER)
-        found = np.zeros((before + k * m + after, 2))
-        n = before
-        for i in range(k):
-            for share in FINER:
-                place = chosen[i, 0] + share * apart
-                if low < station_at(rungs, max(place, 0.0), periods)[2] < high:
-                    found[n, 0], found[n, 1] = place, chosen[i, 1]
-                    n += 1
-        found = found[: n + after]
-        half = NARROW
-        if level < LEVELS:
-            step, apart = step * NARROWER, apart / 2.0
-    for i in range(chosen.shape[0]):
-        chosen[i, 0] = station_at(rungs, chosen[i, 0], periods)[2]
-    return chosen
+        if cost < least:
+            best = other
+    for i in range(best.shape[0]):
+        best[i, 0] = station_at(rungs, best[i, 0], periods)[2]
+    return best
