@@ -80,8 +80,12 @@ def beside(rings: "Floats", certain: "Floats") -> "Floats":
 
 
 def drift(rings: "Floats", at: "Floats") -> "Floats":
-    """By how much rings (k, 2) change with height: each is that of its level's middle."""
+    """By how much rings (k, 2) change with height: each is that of its level's middle.
+
+    The smaller of the changes to either neighbour, for the other may be no ring of the wall.
+    """
     if len(rings) < 2:
         return np.zeros(len(rings))
-    rate: Floats = np.hypot(*np.gradient(rings, at, axis=0).T)
-    return rate
+    rate = np.hypot(*np.diff(rings, axis=0).T) / np.diff(at)
+    found: Floats = np.minimum(np.append(rate, np.inf), np.append(np.inf, rate))
+    return found

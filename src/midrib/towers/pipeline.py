@@ -347,7 +347,10 @@ def gated(
     left = bands_of(cells, fit.residual, fit.weight, unit) if is_oval else bands
     shape = steady(shape, left, unit, excused)
     breaks = breaks_of(cells, fit, unit)
-    if breaks.leaps.size:
-        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=breaks.leaps)
+    # An offset that the axis smooths counts as an error of the wall, in which kinks drown.
+    while breaks.leaps.size:
+        leaps = np.sort(np.concatenate([fit.model.axis.leaps, breaks.leaps]))
+        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=leaps)
+        breaks = breaks_of(cells, fit, unit)
     low = cells.grid.start + dents * bands.height
     return cells, fit, shape, np.column_stack([low, low + bands.height]), breaks.kinks
