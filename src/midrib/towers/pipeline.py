@@ -46,6 +46,7 @@ MOST_PASSES = 3
 LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 MOST_LEVELS = 100_000  # a centimetre apart in the highest tower
+LYING = 2.0  # times the height: a cloud that reaches so far sideways may have its tower lie
 MOST_LEAN = 45.0  # degrees: more, and the axis reaches farther sideways than up
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
@@ -260,7 +261,7 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
     if polygon and circular:
         found = polygon if polygon.off < BETTER * circular.off else circular
     if found is None:
-        raise ParameterError(why)
+        raise ParameterError(why + lying(sample, unit))
     if found.off > most_off(float(np.median(found.table[:, 3])), unit):
         far = "hardly any is near the best"
         if np.isfinite(found.off):
@@ -269,8 +270,25 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
             "no tower was found: points are neither on circles nor on the faces of a regular "
             f"polygon, {far}; near= and radius= say where it is and how thick"
         )
-        raise ParameterError(msg)
+        raise ParameterError(msg + lying(sample, unit))
     return found
+
+
+def lying(sample: "Floats", unit: float) -> str:
+    """Question whether the tower lies, for sentences that say there is none; empty if not."""
+    x, y, z = reach_of(sample, unit)
+    if max(x, y) < LYING * z:
+        return ""
+    return (
+        f"; the cloud reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z): is another coordinate "
+        "the height?"
+    )
+
+
+def reach_of(sample: "Floats", unit: float) -> "Floats":
+    """How far a cloud reaches along x, y and z, in metres, but for its farthest points."""
+    reach: Floats = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+    return reach
 
 
 def check_oval(oval: Oval, off: float, unit: float) -> None:
@@ -305,7 +323,7 @@ def check_lean(rough: Rough, sample: "Floats", unit: float) -> None:
     """
     lean = float(np.degrees(np.arccos(min(abs(rough.frame.turn[2, 2]), 1.0))))
     if lean > MOST_LEAN:
-        x, y, z = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+        x, y, z = reach_of(sample, unit)
         msg = (
             f"no tower was found: what looks like one leans by {lean:.0f}° from z, in a cloud that "
             f"reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z), expected a tower that stands "
