@@ -29,7 +29,7 @@ def scan_of(tower: Tower, **changes: Any) -> Scan:
 def test_a_large_oval_is_refused_as_what_it_is(oval: float, shape: Any) -> None:
     scan = scan_of(Tower(40.0, 2.5, 1.5, lean=0.1, oval=oval, twist=20.0))
     sentence = (
-        rf"ovals: the radius is 2\.\d\d m, give or take {oval:.2f}\d m, expected at most 0\.0"
+        rf"oblong: the radius is 2\.\d\d m, give or take {oval:.2f}\d m, expected at most 0\.0"
     )
     with pytest.raises(ParameterError, match=sentence):
         tower_axis(scan.points(), shape=shape)
@@ -58,6 +58,26 @@ def test_an_oval_that_hardly_turns_is_an_oval() -> None:
     axis = tower_axis(scan_of(tower).points())
     assert axis.shape.name == "oval"
     assert not axis.shape.problem
+
+
+class Rectangle(Tower):
+    """A tower with flat faces, two of them farther from the axis than the others."""
+
+    longer = 1.0
+
+    def shell(self, s: Floats, theta: Floats) -> Floats:
+        half: Floats = self.radius(s)
+        along = np.maximum(np.abs(np.cos(theta)), 1e-9)
+        across = np.maximum(np.abs(np.sin(theta)), 1e-9)
+        return np.minimum(self.longer * half / along, half / across)
+
+
+@pytest.mark.parametrize("longer", [1.1, 1.3, 2.5])
+def test_a_rectangle_is_no_square(longer: float) -> None:
+    """Three of its faces are a square's."""
+    tower = type("Longer", (Rectangle,), {"longer": longer})(40.0, 2.5, 1.5, lean=0.1)
+    with pytest.raises(ParameterError, match=r"oblong|nor on the faces of a regular polygon"):
+        tower_axis(scan_of(tower).points())
 
 
 class Lifts(Tower):

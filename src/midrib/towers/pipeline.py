@@ -302,7 +302,7 @@ def check_oval(oval: Oval, off: float, unit: float) -> None:
     most = MOST_OVAL * FINE[0] * scale_of(oval.radius, unit)
     if oval.size > most and oval.off < min(BETTER * off, most_off(oval.radius, unit)):
         msg = (
-            f"the tower's sections are ovals: the radius is {oval.radius / unit:.2f} m, give or "
+            f"the tower's sections are oblong: the radius is {oval.radius / unit:.2f} m, give or "
             f"take {oval.size / unit:.3f} m, expected at most {most / unit:.3f} m"
         )
         raise ParameterError(msg)
