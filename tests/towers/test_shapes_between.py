@@ -35,6 +35,12 @@ def test_a_large_oval_is_refused_as_what_it_is(oval: float, shape: Any) -> None:
         tower_axis(scan.points(), shape=shape)
 
 
+def test_a_pole_that_is_an_oval_is_refused_by_its_proportions() -> None:
+    scan = scan_of(Tower(10.0, 0.2, 0.15, lean=0.01, oval=0.045, twist=20.0))
+    with pytest.raises(ParameterError, match=r"give or take 0\.045 m, expected at most 0\.026 m"):
+        tower_axis(scan.points())
+
+
 @pytest.mark.parametrize("unit", [1.0, 1000.0])
 def test_an_oval_that_cells_hold_is_answered(unit: float) -> None:
     scan = scan_of(Tower(40.0, 2.5, 1.5, lean=0.1, oval=0.08, twist=20.0))

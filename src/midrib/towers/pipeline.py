@@ -39,7 +39,9 @@ SAMPLE = 200_000
 BEYOND = 0.02  # of the height: the tower may go on where the sample has few points
 MOST_OFF = (0.05, 0.012)  # of the radius, metres: a section whose points are farther off is another
 BETTER = 0.6  # times as far off points are if the tower has faces, or is an oval
-MOST_OVAL = 0.92  # of the reach of fine cells: the amplitude of an oval that they hold
+# Amplitude of an oval: of the reach of fine cells, which hold it, and of the radius, as more is
+# near no circle.
+MOST_OVAL, MOST_OVALITY = 0.92, 0.15
 MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
@@ -299,7 +301,7 @@ def check_oval(oval: Oval, off: float, unit: float) -> None:
     ParameterError
         If the sections are such ovals rather than what points are ``off`` by so much.
     """
-    most = MOST_OVAL * FINE[0] * scale_of(oval.radius, unit)
+    most = min(MOST_OVAL * FINE[0] * scale_of(oval.radius, unit), MOST_OVALITY * oval.radius)
     if oval.size > most and oval.off < min(BETTER * off, most_off(oval.radius, unit)):
         msg = (
             f"the tower's sections are oblong: the radius is {oval.radius / unit:.2f} m, give or "
