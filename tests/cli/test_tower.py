@@ -132,7 +132,18 @@ WRONG = {
     "tolerance": (["--tolerance", "some"], "--tolerance is 'some', expected a length (50mm)"),
     "near": (["--near", "5"], "--near is '5', expected two numbers: 1.5,3"),
     "step": (["--step", "long"], "--step is 'long', expected a number"),
-    "planes": (["--planes", "2"], "planes is 2, expected a whole number from 3 to 36"),
+    "planes": (
+        ["--mode", "fan", "--planes", "2"],
+        "planes is 2, expected a whole number from 3 to 36",
+    ),
+    "planes alone": (
+        ["--planes", "4"],
+        "--planes is of no effect in --mode joint, expected --mode",
+    ),
+    "thinning": (
+        ["--mode", "fan", "--thinning", "average-depth"],
+        "--thinning is of no effect in --mode fan, expected --mode paper",
+    ),
     "unit": (["--unit", "ells"], "--unit is 'ells', expected one of mm, cm"),
 }
 

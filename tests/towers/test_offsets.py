@@ -56,6 +56,20 @@ def test_a_kink_is_no_offset_and_smooth_axes_have_neither() -> None:
     assert not smooth.kinks
 
 
+def test_an_offset_hides_no_kink_that_is_far_from_it() -> None:
+    """Smoothed, it counts as an error of the wall; so kinks are sought beside it once more."""
+    tower = Tower(60.0, 2.5, 1.5, kink=4.0, kink_spacing=15.0, seed=5)
+    scan = Scan(
+        replace(tower, offset=0.02, offset_height=31.2), count=120_000, noise=(0.002, 0.004), seed=5
+    )
+    axis = tower_axis(scan.points())
+    assert [offset.z for offset in axis.offsets] == pytest.approx([31.2], abs=0.5)
+    turn = 1e3 * np.hypot(*tower.kinks[1][0])
+    lowest = axis.kinks[0]
+    assert lowest.z == pytest.approx(15.0, abs=1.0)
+    assert lowest.turn == pytest.approx(turn, rel=0.1)
+
+
 def test_the_fan_follows_an_offset_of_its_own() -> None:
     scan = scan_of(TOWER)
     axis = tower_axis(scan.points(), "fan")

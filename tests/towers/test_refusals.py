@@ -51,6 +51,15 @@ def test_a_tower_that_lies_is_refused(order: list[int], sentence: str) -> None:
     assert "inf" not in str(caught.value)
 
 
+@pytest.mark.parametrize("order", [[0, 2, 1], [2, 1, 0]])
+def test_a_tower_with_faces_that_lies_is_refused_with_a_question(order: list[int]) -> None:
+    points = dirty(Tower(40.0, 2.5, 1.5, lean=0.1, faces=4)).points()[:, order]
+    with pytest.raises(ParameterError, match="no tower was found: ") as caught:
+        tower_axis(points)
+    assert "(x, y, z)" in str(caught.value)
+    assert "is another coordinate the height?" in str(caught.value)
+
+
 @pytest.mark.parametrize("unit", [1.0, 1000.0])
 @pytest.mark.parametrize("order", [[0, 2, 1], [2, 1, 0]])
 def test_how_a_tower_lies_is_told(order: list[int], unit: float) -> None:

@@ -6,6 +6,7 @@ import typer
 
 from midrib.cli import options as cli
 from midrib.cli.options import TowerMode, TowerShape, TowerThinning
+from midrib.errors import ParameterError
 
 __all__ = ["tower"]
 
@@ -35,9 +36,11 @@ def tower(
     from midrib.cli.shown import show
     from midrib.figures.tower_report import summary_lines
     from midrib.formats.clouds import open_cloud
-    from midrib.towers.pipeline import axis_of
+    from midrib.towers.pipeline import Options, axis_of
     from midrib.towers.tolerance import tolerance_from
 
+    check_used("--planes", mode, TowerMode.fan, changed=planes != Options.planes)
+    check_used("--thinning", mode, TowerMode.paper, changed=thinning.value != Options.thinning)
     places = Places(source, tuple(reports or ()), tuple(out or ()))
     places.check(overwrite=overwrite)
     allowed = None if tolerance is None else tolerance_from(tolerance)
@@ -59,3 +62,16 @@ def tower(
         report.say(note)
     if (axis.levels["flag"] != "").any():
         raise typer.Exit(1)
+
+
+def check_used(option: str, mode: TowerMode, user: TowerMode, *, changed: bool) -> None:
+    """Refuse an option that the mode has no use for.
+
+    Raises
+    ------
+    ParameterError
+        If it is not as usual, and another mode is its user.
+    """
+    if changed and mode is not user:
+        msg = f"{option} is of no effect in --mode {mode.value}, expected --mode {user.value}"
+        raise ParameterError(msg)

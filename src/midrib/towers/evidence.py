@@ -65,6 +65,13 @@ class Trials(NamedTuple):
     columns: "list[Floats]"
     apart: float  # two that are chosen are so far apart at the least
 
+    def beside(self, taken: "Floats") -> "Trials":
+        """Return those that are far enough from heights that are taken."""
+        away = np.abs(self.heights[:, None] - taken)
+        rows = (away >= self.apart * (1.0 - 1e-9)).all(axis=1)
+        columns = [self.columns[i] for i in np.flatnonzero(rows)]
+        return Trials(self.heights[rows], self.is_leap[rows], columns, self.apart)
+
     def free(self, rows: "Ints", chosen: list[int]) -> "Ints":
         """Those of some rows that are far enough from all that are chosen."""
         away = np.abs(self.heights[rows][:, None] - self.heights[chosen])

@@ -27,6 +27,7 @@ STEP = 0.5  # degrees between the directions that are tried
 NEAR = 0.03  # metres: as far off a face as its points may be
 LEAST_SHARE = 0.25  # of what a face seen in full would have
 LEAST_FACES, LEAST_SLABS = 3, 0.3  # that tell an axis, each in as many of the slabs
+OPPOSITE = 1.5  # apothems inwards: a crowd that is farther there is the opposite face's
 LEAST_NEAR = 0.3  # of the points of slabs: as many are near the faces
 
 
@@ -112,7 +113,28 @@ def fitted(
     agree = np.bincount(face[off < NEAR * unit], minlength=len(normals))
     if (agree >= LEAST_SLABS * len(slabs)).sum() < LEAST_FACES:
         return None
+    beyond = offset - design @ line
+    for rows in (face == j for j in range(len(normals))):
+        if stands_apart(share[rows], beyond[rows], line[2], len(slabs), unit):
+            return None
     return standing(frame, slabs, normals, line, (middle, half), NEAR * unit)
+
+
+def stands_apart(
+    share: "Floats", beyond: "Floats", apothem: float, n_slabs: int, unit: float
+) -> bool:
+    """Whether a face is flat, but ``beyond`` (k,) where a regular polygon has it: a rectangle's.
+
+    Crowds of others' points are one here, one there, or those of the face opposite.
+    """
+    from scipy.stats import theilslopes
+
+    if beyond.size < max(2.0, LEAST_SLABS * n_slabs):
+        return False
+    slope, start, *_ = theilslopes(beyond, share)
+    is_flat = float(np.median(np.abs(beyond - start - slope * share))) < NEAR * unit
+    middle = float(np.median(beyond))
+    return is_flat and abs(middle) > NEAR * unit and middle > -OPPOSITE * apothem
 
 
 def nearest_three(
@@ -182,6 +204,8 @@ def standing(
     s = np.linspace(0.0, length, 101)
     h = apothem[0] + (apothem[1] - apothem[0]) * s / length
     off = off_shell(beyond, radius, LEAST_NEAR)
+    if not off <= near:
+        return None
     return misfit, Rough(along, np.column_stack([s, 0.0 * s, 0.0 * s, h]), normals, off)
 
 

@@ -5,8 +5,10 @@ harmonic k    amplitude of cos kθ and sin kθ in the residuals of a band; 2 is 
 scatter       how much a harmonic differs from band to band
 
 A circle has none of the harmonics from 2 on. One that is there in all bands alike is the section's
-shape; one that is there in a single band is a dent. Over a part of the circle harmonics cannot be
-told, for there they are made of each other: an oval looks like a circle that is elsewhere.
+shape; one that is there in a single band is a dent; one that is there in most bands, but never the
+same, is a shape that turns with height, which no model here has. Over a part of the circle
+harmonics cannot be told, for there they are made of each other: an oval looks like a circle that is
+elsewhere.
 """
 
 from typing import TYPE_CHECKING, NamedTuple
@@ -20,7 +22,7 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.types import Floats
 
-__all__ = ["SEEN", "Bands", "bands_of", "lure_of_an_oval", "shape_of"]
+__all__ = ["SEEN", "Bands", "bands_of", "lure_of_an_oval", "shape_of", "steady"]
 
 BAND, LEAST_BANDS = 5.0, 6  # metres, number: low towers have lower bands
 ORDERS = np.arange(2, 13)  # a dodecagon's is the last: more faces are round but for millimetres
@@ -29,6 +31,7 @@ WAVES = 1.35  # lengths of a harmonic that may be hidden: with more it is made o
 CERTAIN = 3.5  # standard deviations: a harmonic that counts,
 LEAST, LEAST_SHARE = 0.0015, 5e-4  # and is more than this: metres, share of the radius
 DENT, LEAST_DENT = 5.0, 0.008  # standard deviations, metres: one that counts in one band
+TURNING = 0.004  # metres: harmonics that change by so much in most bands are no wall's bumps
 LEAST_TOLD = 3  # bands that tell a harmonic
 SQUARE = 4
 
@@ -110,6 +113,31 @@ def shape_of(
         azimuth = float(azimuth_of(np.cos(turn), np.sin(turn)) % 180.0)
         name = name if lobes else "oval"
     return Shape(name, 0, azimuth, found, problem), bands.band[dented]
+
+
+def steady(shape: Shape, bands: Bands, unit: float, excused: float) -> Shape:
+    """Shape with its problem if the sections of a round tower change with height.
+
+    Parameters
+    ----------
+    shape : Shape
+    bands : Bands
+        Of what the fit leaves.
+    unit : float
+        Coordinate units in a metre.
+    excused : float
+        Length that harmonics may have.
+    """
+    if shape.faces or shape.problem or len(bands.band) < LEAST_TOLD:
+        return shape
+    told = np.isfinite(bands.harmonics.real).sum(axis=0) >= LEAST_TOLD
+    size = np.nanmedian(np.abs(bands.harmonics[:, told]), axis=0)
+    worst = int(np.argmax(size))
+    if size[worst] <= max(TURNING * unit, CERTAIN * bands.noise, excused):
+        return shape
+    amplitude = 1e3 * float(size[worst]) / unit
+    problem = f"section changes with height: harmonic {ORDERS[told][worst]}, {amplitude:.1f} mm"
+    return shape._replace(name="unknown", problem=problem)
 
 
 def lure_of_an_oval(azimuths: "Floats") -> "Floats":

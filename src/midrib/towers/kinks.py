@@ -57,7 +57,7 @@ class Breaks(NamedTuple):
 
 
 def breaks_of(cells: "Cells", fit: "Fit", unit: float) -> Breaks:
-    """Find the kinks and offsets of an axis.
+    """Find the kinks and offsets of an axis beside the leaps that its fit has.
 
     Notes
     -----
@@ -67,7 +67,7 @@ def breaks_of(cells: "Cells", fit: "Fit", unit: float) -> Breaks:
     low, high = float(cells.s.min()) + END * unit, float(cells.s.max()) - END * unit
     if high <= low:
         return Breaks([], np.zeros(0))
-    trials = trials_between(cells, low, high, APART * unit, unit)
+    trials = trials_between(cells, low, high, APART * unit, unit).beside(fit.model.axis.leaps)
     problem = problem_of(cells, fit, unit)
     chosen = chosen_of(problem, trials, unit)
     kinks, leaps = [], []

@@ -13,13 +13,14 @@ import numpy as np
 
 from midrib.checks import check_library, is_number, shown
 from midrib.errors import ParameterError
-from midrib.towers.cells import Cells, Reference, cells_of, grid_for, reference_of
+from midrib.towers.cells import FINE, Cells, Reference, cells_of, grid_for, reference_of, scale_of
 from midrib.towers.cloud import Cloud, Tally, check_spacing, sample_of
 from midrib.towers.faces import rough_polygon
-from midrib.towers.gate import bands_of, shape_of
+from midrib.towers.gate import bands_of, shape_of, steady
 from midrib.towers.joint import Fit, fit_cells
 from midrib.towers.kinks import Kink, breaks_of, offsets_of
 from midrib.towers.levels import levels_of
+from midrib.towers.oblong import Oval, oval_of
 from midrib.towers.records import Shape, TowerAxis
 from midrib.towers.rough import Rough, Search, rough_round
 from midrib.towers.stations import Aligned, Station, labels_in, stations_of
@@ -37,13 +38,17 @@ MODES, SHAPES = ("joint", "fan", "paper"), ("auto", "round", "polygon")
 SAMPLE = 200_000
 BEYOND = 0.02  # of the height: the tower may go on where the sample has few points
 MOST_OFF = (0.05, 0.012)  # of the radius, metres: a section whose points are farther off is another
-BETTER = 0.6  # times as far off points are if the tower has faces
+BETTER = 0.6  # times as far off points are if the tower has faces, or is an oval
+# Amplitude of an oval: of the reach of fine cells, which hold it, and of the radius, as more is
+# near no circle.
+MOST_OVAL, MOST_OVALITY = 0.92, 0.15
 MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
 LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 MOST_LEVELS = 100_000  # a centimetre apart in the highest tower
+LYING = 2.0  # times the height: a cloud that reaches so far sideways may have its tower lie
 MOST_LEAN = 45.0  # degrees: more, and the axis reaches farther sideways than up
 EXCUSED = 1.5  # times the registration: harmonics that are no more than that are the stations'
 
@@ -241,7 +246,8 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
     ParameterError
         If neither does.
     """
-    search = Search(options.unit, options.near, options.radius)
+    unit = options.unit
+    search = Search(unit, options.near, options.radius)
     polygon = rough_polygon(sample, search) if options.shape != "round" else None
     circular, why = None, "no flat faces were found"
     if options.shape != "polygon":
@@ -249,22 +255,64 @@ def shape_found(sample: "Floats", options: Options) -> Rough:
             circular = rough_round(sample, search)
         except ParameterError as error:
             why = str(error)
+    oval = oval_of(sample, unit)
+    check_oval(oval, min([fit.off for fit in (circular, polygon) if fit], default=np.inf), unit)
+    if polygon and oval.off < BETTER * polygon.off:
+        polygon = None
     found = circular or polygon
     if polygon and circular:
         found = polygon if polygon.off < BETTER * circular.off else circular
     if found is None:
-        raise ParameterError(why)
-    usual = float(np.median(found.table[:, 3]))
-    if found.off > max(MOST_OFF[0] * usual, MOST_OFF[1] * options.unit):
+        raise ParameterError(why + lying(sample, unit))
+    if found.off > most_off(float(np.median(found.table[:, 3])), unit):
         far = "hardly any is near the best"
         if np.isfinite(found.off):
-            far = f"half of them more than {found.off / options.unit:.2g} m off the best"
+            far = f"half of them more than {found.off / unit:.2g} m off the best"
         msg = (
             "no tower was found: points are neither on circles nor on the faces of a regular "
             f"polygon, {far}; near= and radius= say where it is and how thick"
         )
-        raise ParameterError(msg)
+        raise ParameterError(msg + lying(sample, unit))
     return found
+
+
+def lying(sample: "Floats", unit: float) -> str:
+    """Question whether the tower lies, for sentences that say there is none; empty if not."""
+    x, y, z = reach_of(sample, unit)
+    if max(x, y) < LYING * z:
+        return ""
+    return (
+        f"; the cloud reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z): is another coordinate "
+        "the height?"
+    )
+
+
+def reach_of(sample: "Floats", unit: float) -> "Floats":
+    """How far a cloud reaches along x, y and z, in metres, but for its farthest points."""
+    reach: Floats = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+    return reach
+
+
+def check_oval(oval: Oval, off: float, unit: float) -> None:
+    """Refuse ovals that are too large for the cells of a circle.
+
+    Raises
+    ------
+    ParameterError
+        If the sections are such ovals rather than what points are ``off`` by so much.
+    """
+    most = min(MOST_OVAL * FINE[0] * scale_of(oval.radius, unit), MOST_OVALITY * oval.radius)
+    if oval.size > most and oval.off < min(BETTER * off, most_off(oval.radius, unit)):
+        msg = (
+            f"the tower's sections are oblong: the radius is {oval.radius / unit:.2f} m, give or "
+            f"take {oval.size / unit:.3f} m, expected at most {most / unit:.3f} m"
+        )
+        raise ParameterError(msg)
+
+
+def most_off(radius: float, unit: float) -> float:
+    """Distance from the sections that half of the points are within, if there is a tower."""
+    return max(MOST_OFF[0] * radius, MOST_OFF[1] * unit)
 
 
 def check_lean(rough: Rough, sample: "Floats", unit: float) -> None:
@@ -277,7 +325,7 @@ def check_lean(rough: Rough, sample: "Floats", unit: float) -> None:
     """
     lean = float(np.degrees(np.arccos(min(abs(rough.frame.turn[2, 2]), 1.0))))
     if lean > MOST_LEAN:
-        x, y, z = np.ptp(np.percentile(sample, [0.2, 99.8], axis=0), axis=0) / unit
+        x, y, z = reach_of(sample, unit)
         msg = (
             f"no tower was found: what looks like one leans by {lean:.0f}° from z, in a cloud that "
             f"reaches {x:.1f} m by {y:.1f} m by {z:.1f} m (x, y, z), expected a tower that stands "
@@ -316,8 +364,13 @@ def gated(
     is_oval = shape.name == "oval"
     if is_oval:
         fit = fit_cells(cells, unit, is_oval=True)
+    left = bands_of(cells, fit.residual, fit.weight, unit) if is_oval else bands
+    shape = steady(shape, left, unit, excused)
     breaks = breaks_of(cells, fit, unit)
-    if breaks.leaps.size:
-        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=breaks.leaps)
+    # An offset that the axis smooths counts as an error of the wall, in which kinks drown.
+    while breaks.leaps.size:
+        leaps = np.sort(np.concatenate([fit.model.axis.leaps, breaks.leaps]))
+        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=leaps)
+        breaks = breaks_of(cells, fit, unit)
     low = cells.grid.start + dents * bands.height
     return cells, fit, shape, np.column_stack([low, low + bands.height]), breaks.kinks

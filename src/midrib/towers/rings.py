@@ -63,15 +63,18 @@ def is_seen(cells: "Cells", normal: "Floats", used: "Bools") -> "Bools":
 def rings_of(
     cells: "Cells", design: "Floats", d: "Floats", used: "Bools", has_ring: "Bools"
 ) -> "Floats":
-    """Rings (k, 3) of the levels that have one, of cells that are ``d`` out, by Huber's weights."""
+    """Coefficients (k, c) of a design (m, c) at the levels that have a ring, by Huber's weights.
+
+    Cells are ``d`` out.
+    """
     row = np.cumsum(has_ring) - 1
     inside = used & has_ring[cells.level]
     level, design, d = row[cells.level[inside]], design[inside], d[inside]
-    n = int(has_ring.sum())
+    n, width = int(has_ring.sum()), design.shape[1]
     weight: Floats = np.ones(d.size)
-    rings: Floats = np.zeros((n, 3))
+    rings: Floats = np.zeros((n, width))
     for _ in range(ROUNDS):
-        normal, right = np.zeros((n, 3, 3)), np.zeros((n, 3))
+        normal, right = np.zeros((n, width, width)), np.zeros((n, width))
         np.add.at(normal, level, weight[:, None, None] * design[:, :, None] * design[:, None, :])
         np.add.at(right, level, (weight * d)[:, None] * design)
         rings = np.linalg.solve(normal, right[:, :, None])[:, :, 0].astype(np.float64)
