@@ -1,5 +1,6 @@
 """Stations that are a little off: told apart from the shape of the sections, and put together."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from midrib.errors import GeometryTypeError
 from midrib.formats.clouds import open_cloud
 from midrib.towers.cells import Cells, Grid, Reference
 from midrib.towers.cloud import ArrayCloud
+from midrib.towers.pipeline import Options, axis_of
 from midrib.towers.rough import Frame
 from midrib.towers.simulate import Scan, Tower
 from midrib.towers.stations import Aligned, Station, labels_in, without_form
@@ -67,6 +69,25 @@ def test_the_form_of_a_section_is_taken_off_where_it_is_measured() -> None:
         parts.append(cells)
     for cells in without_form(parts, 1.0):
         assert np.abs(cells.d).max() < 1e-9
+
+
+class Counted(ArrayCloud):
+    """A cloud that knows how often it was read."""
+
+    readings = 0
+
+    def chunks(self, *, with_stations: bool = False) -> Iterator[Floats]:
+        """Points, a chunk at a time."""
+        self.readings += 1
+        return super().chunks(with_stations=with_stations)
+
+
+def test_the_reading_for_stations_gives_the_shell_to_measure_from() -> None:
+    scan = dirty(TOWER)
+    points, _ = moved(scan)
+    cloud = Counted(points, scan.stations)
+    axis_of(cloud, Options())
+    assert cloud.readings == 2
 
 
 def test_stations_that_could_not_be_put_together_are_flagged() -> None:

@@ -1,8 +1,9 @@
 """From a cloud to the axis: sample, shape, reference, cells, gate, mode, levels.
 
 A sample gives coarse cells and a shell to measure from; then the cloud is read once for fine cells,
-again where that shell was off by more than matters, and once before that where stations are to be
-put together. Memory does not depend on the number of points.
+and again where that shell was off by more than matters. Where stations are to be put together it is
+read before that, station by station, which gives a better shell too. Memory does not depend on the
+number of points.
 """
 
 from collections.abc import Callable, Iterable
@@ -190,8 +191,10 @@ def shell_of(cloud: Cloud, options: Options, track: Track) -> Shell:
     stations: list[Station] = []
     if labels.size:
         chunks = track(cloud.chunks(with_stations=True), "stations")
-        stations = stations_of(chunks, labels, reference, grid, unit)
+        stations, larger = stations_of(chunks, labels, reference, grid, unit)
         cloud = Aligned(cloud, stations) if stations else cloud
+        if larger.level.size:
+            reference = refined(reference, fit_cells(larger, unit))
     for _ in range(MOST_PASSES):
         tally = Tally()
         cells = cells_of(

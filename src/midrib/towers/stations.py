@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from midrib.towers.cloud import Cloud
     from midrib.types import Floats, Ints
 
-__all__ = ["Aligned", "Station", "labels_in", "stations_of"]
+__all__ = ["Aligned", "Station", "Stations", "labels_in", "stations_of"]
 
 LEAST_SHARE = 0.01  # of the sample, that makes a label a station
 MOST_STATIONS = 12  # each has a cube of counts of its own
@@ -52,6 +52,13 @@ class Station(NamedTuple):
     x: float
     y: float
     sigma: float  # of x and y
+
+
+class Stations(NamedTuple):
+    """What a reading station by station tells."""
+
+    found: list[Station]  # none if they see too little in common
+    cells: Cells  # larger ones than those of the fit, of all stations where they fit together
 
 
 class Aligned:
@@ -96,13 +103,8 @@ def labels_in(sample: "Floats") -> "Floats":
 
 def stations_of(
     chunks: "Iterable[Floats]", labels: "Floats", reference: Reference, grid: Grid, unit: float
-) -> list[Station]:
+) -> Stations:
     """Find how far stations are off where they overlap; one pass.
-
-    Returns
-    -------
-    list of Station
-        Empty if the stations see too little in common to tell.
 
     Notes
     -----
@@ -120,12 +122,36 @@ def stations_of(
     shifts, sigma = fitted(design, known, len(labels), unit)
     sigma = np.hypot(sigma, FORM_LEFT * np.sqrt(2.0) * float(np.std(taken)) if taken.size else 0.0)
     if not sigma.max(initial=np.inf if not known.size else 0.0) <= KNOWN * unit:
-        return []
+        return Stations([], together(seen, np.zeros_like(shifts)))
     turned = shifts @ reference.frame.turn[:2, :2]
-    return [
+    found = [
         Station(int(label), int(n), float(x), float(y), float(s))
         for label, n, (x, y), s in zip(labels, shares, turned, sigma, strict=True)
     ]
+    return Stations(found, together(seen, shifts))
+
+
+def together(parts: list[Cells], shifts: "Floats") -> Cells:
+    """Cells of all stations, each station's shift (x, y) taken off: means by numbers of points."""
+    grid = parts[0].grid
+    at = np.concatenate([cells.level * grid.n_sectors + cells.sector for cells in parts])
+    moved = [
+        cells.d - normals_of(cells)[0] @ shift for cells, shift in zip(parts, shifts, strict=True)
+    ]
+    means = np.column_stack(
+        [
+            np.concatenate([cells.s for cells in parts]),
+            np.concatenate([cells.azimuth for cells in parts]),
+            np.concatenate(moved),
+            np.concatenate([cells.spread for cells in parts]),
+        ]
+    )
+    n = np.concatenate([cells.n for cells in parts])
+    place, cell = np.unique(at, return_inverse=True)
+    total: Floats = np.bincount(cell, weights=n).astype(np.float64)
+    s, azimuth, d, spread = (np.bincount(cell, weights=n * mean) / total for mean in means.T)
+    level, sector = np.divmod(place, grid.n_sectors)
+    return Cells(level, sector, s, azimuth, d, total, spread, parts[0].reference, grid)
 
 
 def coarser(grid: Grid) -> Grid:
