@@ -4,16 +4,17 @@ import json
 import os
 import signal
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
 
 from midrib.engines import batches, local, parts
-from midrib.engines.jobs import Job, logged
+from midrib.engines.jobs import Job, logged, plan
 from midrib.errors import MidribError, ParameterError
 from midrib.formats.reading import open_layer
-from tests.engines.layers import contents, job_on, made, start, write_areas
+from tests.engines.layers import contents, job_on, made, recipe_of, start, write_areas
 
 
 @pytest.fixture(scope="module")
@@ -110,6 +111,41 @@ def test_other_options_or_input_are_another_job(source: Path, tmp_path: Path) ->
     assert contents(folder) == before
     assert run(job_on(copy, folder), overwrite=True) == list(range(6))
     assert contents(folder) != before
+
+
+@pytest.mark.parametrize(("side", "old", "new"), [("dbf", b" 5", b" 6"), ("prj", b"RD", b"??")])
+def test_side_files_are_input_too(side: str, old: bytes, new: bytes, tmp_path: Path) -> None:
+    source = write_areas(tmp_path / "in.shp")
+    run(job_on(source, tmp_path / "lines"))
+    (tmp_path / "in.txt").write_text("notes of mine are no input")
+    assert run(job_on(source, tmp_path / "lines")) == []
+    path = source.with_suffix(f".{side}")
+    content = path.read_bytes()
+    path.write_bytes(content.replace(old, new))
+    assert path.read_bytes() != content
+    with pytest.raises(ParameterError, match=rf"input has changed: in.{side}\), give the same"):
+        job_on(source, tmp_path / "lines").begin(overwrite=False)
+
+
+def test_another_crs_is_another_job(source: Path, tmp_path: Path) -> None:
+    recipe = recipe_of(source)
+    plan(tmp_path / "lines", [source], "in", recipe, 20, None).begin(overwrite=False)
+    job = plan(tmp_path / "lines", [source], "in", replace(recipe, crs=None), 20, None)
+    with pytest.raises(ParameterError, match=r"another job \(the CRS of the input has changed\)"):
+        job.begin(overwrite=False)
+
+
+def test_a_geodatabase_is_all_its_files(tmp_path: Path) -> None:
+    source = write_areas(tmp_path / "in.gdb")
+    run(job_on(source, tmp_path / "lines"))
+    (source / "of_a_reader.lock").touch()
+    assert run(job_on(source, tmp_path / "lines")) == []
+    table = max(source.glob("*.gdbtable"))
+    with table.open("ab") as file:
+        file.write(bytes(8))
+    changed = rf"input has changed: in.gdb/{table.name}\)"
+    with pytest.raises(ParameterError, match=changed):
+        job_on(source, tmp_path / "lines").begin(overwrite=False)
 
 
 def test_folders_of_others_are_left_alone(source: Path, tmp_path: Path) -> None:

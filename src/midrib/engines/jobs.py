@@ -17,7 +17,8 @@ from typing import Any
 
 import midrib
 from midrib.engines.batches import Counts
-from midrib.engines.partitions import Partition, fingerprint, partitions_of
+from midrib.engines.fingerprints import fingerprints
+from midrib.engines.partitions import Partition, partitions_of
 from midrib.engines.parts import REFUSED, Done, Work, remove_unfinished
 from midrib.engines.recipe import Recipe
 from midrib.errors import ParameterError
@@ -96,7 +97,8 @@ def plan(
         "main": main,
         "width": "m" if recipe.has_m else "columns",
         "part-rows": rows,
-        "files": [fingerprint(file) for file in files],
+        "crs": recipe.crs,
+        "files": [some for file in files for some in fingerprints(file)],
     }
     made_from = json.loads(json.dumps(made_from))  # as it comes back from a file
     key = hashlib.sha256(json.dumps(made_from, sort_keys=True).encode()).hexdigest()[:16]
@@ -134,9 +136,14 @@ def differences(before: dict[str, Any], now: dict[str, Any]) -> Iterator[str]:
     """Say what differs between two jobs."""
     for name in {**before, **now}:
         old, new = before.get(name), now.get(name)
-        if old != new:
-            is_input = name == "files"
-            yield changed_files(old, new) if is_input else f"{name} is {new!r}, was {old!r}"
+        if old == new:
+            continue
+        if name == "files":
+            yield changed_files(old, new)
+        elif name == "crs":
+            yield "the CRS of the input has changed"
+        else:
+            yield f"{name} is {new!r}, was {old!r}"
 
 
 def changed_files(before: Any, now: Any) -> str:
