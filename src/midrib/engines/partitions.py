@@ -64,15 +64,24 @@ def files_of(path: Path) -> list[Path]:
     Raises
     ------
     ParameterError
-        If a folder has no such file.
+        If a folder has no such file, or some in folders of its own: these would be left out.
     """
     if not path.is_dir() or path.suffix.lower() in FOLDERS:
         return [path]
     files = sorted(
         file
-        for file in path.iterdir()
-        if file.suffix.lower() in PARQUET_ENDINGS and not file.name.startswith(("_", "."))
+        for file in path.rglob("*")
+        if file.suffix.lower() in PARQUET_ENDINGS
+        and file.is_file()
+        and not any(name.startswith(("_", ".")) for name in file.relative_to(path).parts)
     )
+    inner = next((file.parent for file in files if file.parent != path), None)
+    if inner is not None:
+        msg = (
+            f"IN {str(path)!r} has .parquet files in the subfolder "
+            f"{inner.relative_to(path).as_posix()!r}, expected all of them in the folder itself"
+        )
+        raise ParameterError(msg)
     if not files:
         msg = f"IN {str(path)!r} is a folder without .parquet files, expected some"
         raise ParameterError(msg)
