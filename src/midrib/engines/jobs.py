@@ -1,6 +1,7 @@
 """Jobs that survive an interrupt: what a folder of parts is made from, and which are finished.
 
     OUT/_midrib.json   what the parts are made from; totals once all are there
+    OUT/_lock.json     which run is writing there, while it does
     OUT/_log.jsonl     one line for each part that a run has finished: counts, seconds
 
 A part that is there is never made twice: its footer says whether it is of this job. A job whose
@@ -11,6 +12,7 @@ import hashlib
 import json
 import shutil
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ from typing import Any
 import midrib
 from midrib.engines.batches import Counts
 from midrib.engines.fingerprints import fingerprints
+from midrib.engines.locks import LOCK, alone_in
 from midrib.engines.partitions import Partition, partitions_of
 from midrib.engines.parts import REFUSED, Done, Work, remove_unfinished
 from midrib.engines.recipe import Recipe
@@ -40,6 +43,21 @@ class Job:
     def folder(self) -> Path:
         """Where the parts go."""
         return self.work.folder
+
+    @contextmanager
+    def alone(self) -> Iterator[None]:
+        """Keep other runs out of the folder, which is there from now on.
+
+        Raises
+        ------
+        ParameterError
+            If the folder holds something else, or another run is writing to it.
+        """
+        if self.folder.exists():
+            read_manifest(self.folder)
+        self.folder.mkdir(exist_ok=True)
+        with alone_in(self.folder):
+            yield
 
     def begin(self, *, overwrite: bool) -> tuple[list[Partition], Counts]:
         """Make the folder ready: partitions without a finished part, and counts of the others.
@@ -117,7 +135,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     if path.is_file():
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))["made_from"]
         return found
-    if not folder.is_dir() or any(folder.iterdir()):
+    if not folder.is_dir() or any(path.name != LOCK for path in folder.iterdir()):
         what = "a folder, but no output of an earlier run" if folder.is_dir() else "a file"
         msg = f"OUT {str(folder)!r} is {what}, expected another place or an empty folder"
         raise ParameterError(msg)
