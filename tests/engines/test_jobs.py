@@ -14,7 +14,7 @@ from midrib.engines import batches, local, parts
 from midrib.engines.jobs import Job, logged, plan
 from midrib.errors import MidribError, ParameterError
 from midrib.formats.reading import open_layer
-from tests.engines.layers import contents, job_on, made, recipe_of, start, write_areas
+from tests.engines.layers import contents, files_up_to, job_on, made, recipe_of, start, write_areas
 
 
 @pytest.fixture(scope="module")
@@ -72,6 +72,22 @@ def test_a_part_that_fails_leaves_nothing_and_the_others_stay(
     assert run(job) == []
     log = [json.loads(line) for line in (job.folder / "_log.jsonl").read_text().splitlines()]
     assert sorted(line["part"] for line in log) == list(range(6))
+
+
+def test_a_disk_that_is_full_is_told_in_a_sentence_and_nothing_half_is_left(
+    source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    job = job_on(source, tmp_path / "lines")
+    for size in (1_000, 6_000):  # in the first row group, and in the footer of a part
+        missing, _ = job.begin(overwrite=False)
+        part = rf"{job.folder}/.*part-0000\d.parquet' cannot be written: File too large"
+        with files_up_to(size), pytest.raises(MidribError, match=part):
+            made(local.run(job.work, missing, lambda _: None, workers=1))
+        assert not list(job.folder.rglob(f"{parts.UNFINISHED}*"))
+    run(job)
+    assert contents(job.folder) == expected
+    with files_up_to(100), pytest.raises(MidribError, match=r"_midrib.json' cannot be written: F"):
+        job.write_manifest()
 
 
 def test_what_was_being_written_is_removed(

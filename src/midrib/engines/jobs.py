@@ -25,6 +25,7 @@ from midrib.engines.partitions import Partition, partitions_of
 from midrib.engines.parts import REFUSED, Done, Work, remove_unfinished
 from midrib.engines.recipe import Recipe
 from midrib.errors import ParameterError
+from midrib.formats.failures import failures_named
 
 __all__ = ["Job", "logged", "plan"]
 
@@ -55,7 +56,8 @@ class Job:
         """
         if self.folder.exists():
             read_manifest(self.folder)
-        self.folder.mkdir(exist_ok=True)
+        with failures_named(f"OUT {str(self.folder)!r}"):
+            self.folder.mkdir(exist_ok=True)
         with alone_in(self.folder):
             yield
 
@@ -96,8 +98,9 @@ class Job:
         if counts is not None:
             content["totals"] = vars(counts)
         path = self.folder / f".{MANIFEST}"
-        path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-        path.replace(self.folder / MANIFEST)
+        with failures_named(repr(str(self.folder / MANIFEST))):
+            path.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+            path.replace(self.folder / MANIFEST)
 
 
 def plan(
@@ -176,6 +179,7 @@ def logged(done: Iterable[Done], folder: Path) -> Iterator[Done]:
     """Parts as they are finished, each noted in the log of the job."""
     for part in done:
         line = {"part": part.number, **vars(part.counts), "seconds": part.seconds}
-        with (folder / LOG).open("a", encoding="utf-8") as file:
+        path = folder / LOG
+        with failures_named(repr(str(path))), path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")
         yield part

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from midrib.errors import ParameterError
+from midrib.formats.failures import failures_named
 
 __all__ = ["LOCK", "alone_in"]
 
@@ -46,11 +47,12 @@ def alone_in(folder: Path) -> Iterator[None]:
 
 def create(path: Path, content: str) -> bool:
     """Write a file that is not there; tell whether that was so."""
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(content)
-    except FileExistsError:
-        return False
+    with failures_named(repr(str(path))):
+        try:
+            with path.open("x", encoding="utf-8") as file:
+                file.write(content)
+        except FileExistsError:
+            return False
     return True
 
 

@@ -6,6 +6,7 @@ Source: https://geoparquet.org/releases/v1.1.0/
 import base64
 import json
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -195,6 +196,13 @@ class GeoParquetWriter:
         metadata["ARROW:schema"] = base64.b64encode(schema).decode()
         self.file.add_key_value_metadata(metadata)
         self.file.close()
+
+    def abandon(self) -> None:
+        """Let go of a file that is not to be kept, whatever the system says to that."""
+        self.held = []
+        with suppress(OSError):
+            self.file.close()
+        self.file.is_open = False  # else it is closed once more when nothing refers to it
 
 
 def numbered(name: str) -> Iterator[str]:
