@@ -78,7 +78,7 @@ def test_a_disk_that_is_full_is_told_in_a_sentence_and_nothing_half_is_left(
     source: Path, expected: dict[str, bytes], tmp_path: Path
 ) -> None:
     job = job_on(source, tmp_path / "lines")
-    for size in (1_000, 6_000):  # in the first row group, and in the footer of a part
+    for size in (1_000, 34_000):  # in the first row group, and in the footer of a part
         missing, _ = job.begin(overwrite=False)
         part = rf"{job.folder}/.*part-0000\d.parquet' cannot be written: File too large"
         with files_up_to(size), pytest.raises(MidribError, match=part):
@@ -162,6 +162,23 @@ def test_a_geodatabase_is_all_its_files(tmp_path: Path) -> None:
     changed = rf"input has changed: in.gdb/{table.name}\)"
     with pytest.raises(ParameterError, match=changed):
         job_on(source, tmp_path / "lines").begin(overwrite=False)
+
+
+@pytest.mark.parametrize("content", ["", "{", "{}", "[]", "null"])
+def test_a_damaged_manifest_is_refused_or_overwritten(
+    content: str, source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    job = job_on(source, tmp_path / "lines")
+    job.begin(overwrite=False)
+    (job.folder / "_midrib.json").write_text(content)
+    with (
+        job.alone(),
+        pytest.raises(ParameterError, match=r"_midrib.json' is damaged.* --overwrite begins anew"),
+    ):
+        job.begin(overwrite=False)
+    if not content:
+        run(job, overwrite=True)
+        assert contents(job.folder) == expected
 
 
 def test_folders_of_others_are_left_alone(source: Path, tmp_path: Path) -> None:

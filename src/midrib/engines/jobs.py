@@ -54,8 +54,7 @@ class Job:
         ParameterError
             If the folder holds something else, or another run is writing to it.
         """
-        if self.folder.exists():
-            read_manifest(self.folder)
+        check_ours(self.folder)
         with failures_named(f"OUT {str(self.folder)!r}"):
             self.folder.mkdir(exist_ok=True)
         with alone_in(self.folder):
@@ -69,17 +68,17 @@ class Job:
         ParameterError
             If the folder holds something else, or parts of another job and not ``overwrite``.
         """
-        if self.folder.exists():
-            before = read_manifest(self.folder)
-            if overwrite:
-                clear(self.folder)
-            elif before and before != self.made_from:
-                said = "; ".join(differences(before, self.made_from))
-                msg = (
-                    f"OUT {str(self.folder)!r} holds parts of another job ({said}), give the same "
-                    "input and options to go on, or --overwrite to begin anew"
-                )
-                raise ParameterError(msg)
+        check_ours(self.folder)
+        if overwrite:
+            clear(self.folder)
+        before = read_manifest(self.folder)
+        if before and before != self.made_from:
+            said = "; ".join(differences(before, self.made_from))
+            msg = (
+                f"OUT {str(self.folder)!r} holds parts of another job ({said}), give the same "
+                "input and options to go on, or --overwrite to begin anew"
+            )
+            raise ParameterError(msg)
         self.folder.mkdir(exist_ok=True)
         remove_unfinished(self.folder)
         self.write_manifest()
@@ -126,23 +125,42 @@ def plan(
     return Job(Work(folder, key, recipe), partitions_of(files, layer, rows), made_from)
 
 
-def read_manifest(folder: Path) -> dict[str, Any]:
-    """Read what the parts in a folder are made from; nothing if the folder is empty.
+def check_ours(folder: Path) -> None:
+    """Refuse a place with something that is no output of an earlier run.
 
     Raises
     ------
     ParameterError
-        If the folder is no output of an earlier run.
+        If so.
     """
-    path = folder / MANIFEST
-    if path.is_file():
-        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))["made_from"]
-        return found
+    if not folder.exists() or (folder / MANIFEST).is_file():
+        return
     if not folder.is_dir() or any(path.name != LOCK for path in folder.iterdir()):
         what = "a folder, but no output of an earlier run" if folder.is_dir() else "a file"
         msg = f"OUT {str(folder)!r} is {what}, expected another place or an empty folder"
         raise ParameterError(msg)
-    return {}
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """Read what the parts in a folder are made from; nothing if there are none.
+
+    Raises
+    ------
+    ParameterError
+        If that cannot be read, as after a power cut.
+    """
+    path = folder / MANIFEST
+    if not path.exists():
+        return {}
+    try:
+        found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))["made_from"]
+    except (ValueError, LookupError, TypeError) as error:
+        msg = (
+            f"{str(path)!r} is damaged, expected what an earlier run has written; --overwrite "
+            "begins anew"
+        )
+        raise ParameterError(msg) from error
+    return found
 
 
 def clear(folder: Path) -> None:
