@@ -10,12 +10,13 @@ import shapely
 
 from midrib.engines.batches import collapse_batch
 from midrib.engines.recipe import Recipe
+from midrib.errors import MidribError
 from midrib.formats.contents import layer_names
 from midrib.formats.geoparquet import GeoParquetWriter
 from midrib.formats.reading import open_layer
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
-from tests.engines.layers import areas, batch_of, contents, recipe_of, write_areas
+from tests.engines.layers import areas, batch_of, contents, files_up_to, recipe_of, write_areas
 from tests.formats.layers import RD_NEW
 
 ENDINGS = ("parquet", "gpkg", "fgb", "geojson", "shp", "gdb", "csv")
@@ -62,6 +63,23 @@ def places(tmp_path: Path) -> tuple[Path, Path]:
     for name in ("parts", "whole"):
         (tmp_path / name).mkdir()
     return tmp_path / "parts", tmp_path / "whole"
+
+
+@pytest.mark.parametrize("ending", ["parquet", "gpkg"])
+def test_a_disk_that_is_full_ends_in_a_sentence(
+    ending: str, source: Path, midrib: Runner, tmp_path: Path
+) -> None:
+    with files_up_to(10_000):
+        outcome = midrib("collapse", source, tmp_path / f"out.{ending}", "--quiet")
+    assert outcome.code == 2
+    assert outcome.err.endswith("part-00000.parquet' cannot be written: File too large\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_parquet_file_that_does_not_fit_is_named(source: Path, tmp_path: Path) -> None:
+    recipe, out = recipe_of(source), tmp_path / "out.parquet"
+    with files_up_to(10_000), pytest.raises(MidribError, match=r"^OUT 'out.parquet' cannot be wri"):
+        write_piece(out, "in", batch_of(source), recipe, "Polygon")
 
 
 @pytest.mark.parametrize("ending", ENDINGS)

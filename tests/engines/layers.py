@@ -1,8 +1,10 @@
 """A layer of many small areas, some of them refused, repaired or missing, and jobs on it."""
 
+import resource
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +20,7 @@ from midrib.formats.reading import open_layer
 from midrib.formats.writing import Features, write_layer
 from tests.formats.layers import RD_NEW
 
-__all__ = ["areas", "batch_of", "contents", "job_on", "recipe_of", "write_areas"]
+__all__ = ["areas", "batch_of", "contents", "files_up_to", "job_on", "recipe_of", "write_areas"]
 
 ROWS = 20  # of a partition
 
@@ -81,6 +83,17 @@ def job_on(path: Path, folder: Path, **options: object) -> Job:
 def contents(folder: Path) -> dict[str, bytes]:
     """Parts in a folder, and their bytes."""
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("part-*.parquet")}
+
+
+@contextmanager
+def files_up_to(size: int) -> Iterator[None]:
+    """Let no file of this process grow past so many bytes, as on a disk that is full."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
 def made(done: Iterable[Done]) -> list[int]:

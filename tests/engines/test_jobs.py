@@ -4,16 +4,17 @@ import json
 import os
 import signal
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
 
 from midrib.engines import batches, local, parts
-from midrib.engines.jobs import Job, logged
+from midrib.engines.jobs import Job, logged, plan
 from midrib.errors import MidribError, ParameterError
 from midrib.formats.reading import open_layer
-from tests.engines.layers import contents, job_on, made, start, write_areas
+from tests.engines.layers import contents, files_up_to, job_on, made, recipe_of, start, write_areas
 
 
 @pytest.fixture(scope="module")
@@ -73,6 +74,22 @@ def test_a_part_that_fails_leaves_nothing_and_the_others_stay(
     assert sorted(line["part"] for line in log) == list(range(6))
 
 
+def test_a_disk_that_is_full_is_told_in_a_sentence_and_nothing_half_is_left(
+    source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    job = job_on(source, tmp_path / "lines")
+    for size in (1_000, 34_000):  # in the first row group, and in the footer of a part
+        missing, _ = job.begin(overwrite=False)
+        part = rf"{job.folder}/.*part-0000\d.parquet' cannot be written: File too large"
+        with files_up_to(size), pytest.raises(MidribError, match=part):
+            made(local.run(job.work, missing, lambda _: None, workers=1))
+        assert not list(job.folder.rglob(f"{parts.UNFINISHED}*"))
+    run(job)
+    assert contents(job.folder) == expected
+    with files_up_to(100), pytest.raises(MidribError, match=r"_midrib.json' cannot be written: F"):
+        job.write_manifest()
+
+
 def test_what_was_being_written_is_removed(
     source: Path, expected: dict[str, bytes], tmp_path: Path
 ) -> None:
@@ -110,6 +127,58 @@ def test_other_options_or_input_are_another_job(source: Path, tmp_path: Path) ->
     assert contents(folder) == before
     assert run(job_on(copy, folder), overwrite=True) == list(range(6))
     assert contents(folder) != before
+
+
+@pytest.mark.parametrize(("side", "old", "new"), [("dbf", b" 5", b" 6"), ("prj", b"RD", b"??")])
+def test_side_files_are_input_too(side: str, old: bytes, new: bytes, tmp_path: Path) -> None:
+    source = write_areas(tmp_path / "in.shp")
+    run(job_on(source, tmp_path / "lines"))
+    (tmp_path / "in.txt").write_text("notes of mine are no input")
+    assert run(job_on(source, tmp_path / "lines")) == []
+    path = source.with_suffix(f".{side}")
+    content = path.read_bytes()
+    path.write_bytes(content.replace(old, new))
+    assert path.read_bytes() != content
+    with pytest.raises(ParameterError, match=rf"input has changed: in.{side}\), give the same"):
+        job_on(source, tmp_path / "lines").begin(overwrite=False)
+
+
+def test_another_crs_is_another_job(source: Path, tmp_path: Path) -> None:
+    recipe = recipe_of(source)
+    plan(tmp_path / "lines", [source], "in", recipe, 20, None).begin(overwrite=False)
+    job = plan(tmp_path / "lines", [source], "in", replace(recipe, crs=None), 20, None)
+    with pytest.raises(ParameterError, match=r"another job \(the CRS of the input has changed\)"):
+        job.begin(overwrite=False)
+
+
+def test_a_geodatabase_is_all_its_files(tmp_path: Path) -> None:
+    source = write_areas(tmp_path / "in.gdb")
+    run(job_on(source, tmp_path / "lines"))
+    (source / "of_a_reader.lock").touch()
+    assert run(job_on(source, tmp_path / "lines")) == []
+    table = max(source.glob("*.gdbtable"))
+    with table.open("ab") as file:
+        file.write(bytes(8))
+    changed = rf"input has changed: in.gdb/{table.name}\)"
+    with pytest.raises(ParameterError, match=changed):
+        job_on(source, tmp_path / "lines").begin(overwrite=False)
+
+
+@pytest.mark.parametrize("content", ["", "{", "{}", "[]", "null"])
+def test_a_damaged_manifest_is_refused_or_overwritten(
+    content: str, source: Path, expected: dict[str, bytes], tmp_path: Path
+) -> None:
+    job = job_on(source, tmp_path / "lines")
+    job.begin(overwrite=False)
+    (job.folder / "_midrib.json").write_text(content)
+    with (
+        job.alone(),
+        pytest.raises(ParameterError, match=r"_midrib.json' is damaged.* --overwrite begins anew"),
+    ):
+        job.begin(overwrite=False)
+    if not content:
+        run(job, overwrite=True)
+        assert contents(job.folder) == expected
 
 
 def test_folders_of_others_are_left_alone(source: Path, tmp_path: Path) -> None:

@@ -89,6 +89,20 @@ def test_folders_give_their_parquet_files_in_order(tmp_path: Path) -> None:
     assert files_of(tmp_path / "a.parquet") == [tmp_path / "a.parquet"]
 
 
+def test_files_in_subfolders_are_not_left_out_in_silence(tmp_path: Path) -> None:
+    for name in ("_refused", "land=PL/year=2024", "more"):
+        (tmp_path / name).mkdir(parents=True)
+    (tmp_path / "_refused" / "a.parquet").touch()
+    (tmp_path / "a.parquet").touch()
+    assert files_of(tmp_path) == [tmp_path / "a.parquet"]
+    (tmp_path / "more" / "b.parquet").touch()
+    with pytest.raises(ParameterError, match=r"has .parquet files in the subfolder 'more', expect"):
+        files_of(tmp_path)
+    (tmp_path / "land=PL" / "year=2024" / "c.parquet").touch()
+    with pytest.raises(ParameterError, match=r"in the subfolder 'land=PL/year=2024', expected"):
+        files_of(tmp_path)
+
+
 def test_folders_of_nothing_or_of_files_unlike_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=r"is a folder without .parquet files"):
         files_of(tmp_path)

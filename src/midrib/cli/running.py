@@ -20,6 +20,7 @@ from midrib.formats.writing import staged
 if TYPE_CHECKING:
     from midrib.cli.output import Places
     from midrib.cli.report import Report
+    from midrib.engines.jobs import Job
     from midrib.engines.partitions import Partition
     from midrib.engines.parts import Done
     from midrib.engines.recipe import Recipe
@@ -158,6 +159,17 @@ class Run:
         """Keep parts in a folder, those of an earlier run too."""
         rows = self.machines.part_rows
         job = plan(out, self.files, self.source.layer, self.recipe, rows, main)
+        with job.alone():
+            counts = self.parts_of(job, overwrite=overwrite)
+            job.write_manifest(counts)
+        self.report.say(summary(counts, self.recipe.crs, self.report.elapsed))
+        self.report.say(f"written to {out}, in {len(job.partitions)} parts")
+        if counts.refused:
+            self.report.say(f"refused areas, with reasons, in {out / REFUSED}")
+        return counts
+
+    def parts_of(self, job: "Job", *, overwrite: bool) -> Counts:
+        """Make the parts of a job that are missing, and count what is in all of them."""
         missing, counts = job.begin(overwrite=overwrite)
         n_parts, n_there = len(job.partitions), len(job.partitions) - len(missing)
         if n_there:
@@ -166,14 +178,9 @@ class Run:
             self.report.start()
         try:
             with self.report.progress(self.count, counts.features) as said:
-                for done in logged(self.machines.parts(job.work, missing, said), out):
+                for done in logged(self.machines.parts(job.work, missing, said), job.folder):
                     counts.add(done.counts)
         except KeyboardInterrupt:
             self.report.say("finished parts are kept, the same command goes on from there")
             raise
-        job.write_manifest(counts)
-        self.report.say(summary(counts, self.recipe.crs, self.report.elapsed))
-        self.report.say(f"written to {out}, in {n_parts} parts")
-        if counts.refused:
-            self.report.say(f"refused areas, with reasons, in {out / REFUSED}")
         return counts

@@ -4,16 +4,16 @@ Of GeoParquet they are row groups, or parts of them where these are large; files
 are divided by the number of features.
 """
 
-import hashlib
 import math
 from collections.abc import Generator, Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from midrib.engines.fingerprints import files_behind
 from midrib.errors import ParameterError
 from midrib.formats.contents import PARQUET_ENDINGS, choose_layer, count_features
 from midrib.formats.endings import FOLDERS
@@ -25,14 +25,12 @@ __all__ = [
     "batches_of",
     "check_alike",
     "files_of",
-    "fingerprint",
     "partitions_of",
 ]
 
 PART_ROWS = 50_000  # features of a partition: some seconds of work
 PART_BYTES = 256_000_000
 BATCH_ROWS, BATCH_BYTES = 1_000, 16_000_000  # of a batch, about
-FOOTER = 65_536  # bytes at the end of a file that tell it from others
 
 
 class Partition(NamedTuple):
@@ -66,15 +64,24 @@ def files_of(path: Path) -> list[Path]:
     Raises
     ------
     ParameterError
-        If a folder has no such file.
+        If a folder has no such file, or some in folders of its own: these would be left out.
     """
     if not path.is_dir() or path.suffix.lower() in FOLDERS:
         return [path]
     files = sorted(
         file
-        for file in path.iterdir()
-        if file.suffix.lower() in PARQUET_ENDINGS and not file.name.startswith(("_", "."))
+        for file in path.rglob("*")
+        if file.suffix.lower() in PARQUET_ENDINGS
+        and file.is_file()
+        and not any(name.startswith(("_", ".")) for name in file.relative_to(path).parts)
     )
+    inner = next((file.parent for file in files if file.parent != path), None)
+    if inner is not None:
+        msg = (
+            f"IN {str(path)!r} has .parquet files in the subfolder "
+            f"{inner.relative_to(path).as_posix()!r}, expected all of them in the folder itself"
+        )
+        raise ParameterError(msg)
     if not files:
         msg = f"IN {str(path)!r} is a folder without .parquet files, expected some"
         raise ParameterError(msg)
@@ -114,7 +121,7 @@ def partitions_of(
     found: list[Partition] = []
     for file in files:
         name = choose_layer(file, layer if len(files) == 1 else None)
-        runs = [(0, None, file.stat().st_size)] if rows is None else runs_of(file, name, rows)
+        runs = [(0, None, bytes_of(file))] if rows is None else runs_of(file, name, rows)
         for first, count, size in runs:
             found.append(Partition(len(found), file, name, first, count, size))
     return found
@@ -151,7 +158,12 @@ def groups_of(file: Path) -> Iterator[tuple[int, int]]:
 
 def whole_of(file: Path, layer: str) -> tuple[int, int]:
     """Features and bytes of a file that is no Parquet."""
-    return count_features(file, layer), file.stat().st_size
+    return count_features(file, layer), bytes_of(file)
+
+
+def bytes_of(file: Path) -> int:
+    """Bytes of a layer's file and of those that belong to it."""
+    return sum(some.stat().st_size for some in files_behind(file))
 
 
 def batches_of(partition: Partition) -> Generator[tuple[int, pa.RecordBatch], None, None]:
@@ -173,12 +185,3 @@ def batch_rows(partition: Partition) -> int:
         return BATCH_ROWS
     rows = partition.rows or count_features(partition.path, partition.layer) or 1
     return int(min(max(BATCH_BYTES * rows / max(partition.size, 1), 1), BATCH_ROWS))
-
-
-def fingerprint(file: Path) -> dict[str, Any]:
-    """Tell a file from others, and from what it was before: size, time, hash of its end."""
-    about = file.stat()
-    with file.open("rb") as stream:
-        stream.seek(max(about.st_size - FOOTER, 0))
-        end = hashlib.sha256(stream.read()).hexdigest()
-    return {"name": file.name, "bytes": about.st_size, "changed": about.st_mtime_ns, "sha256": end}

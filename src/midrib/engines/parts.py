@@ -23,6 +23,7 @@ from midrib.engines.batches import Collapsed, Counts, collapse_batch
 from midrib.engines.overlap import ahead, behind
 from midrib.engines.partitions import BATCH_ROWS, Partition, batches_of
 from midrib.engines.recipe import Recipe
+from midrib.formats.failures import failures_named
 from midrib.formats.geoparquet import GeoParquetWriter, Kind
 from midrib.formats.reading import BUFFER, parquet_batches
 
@@ -109,28 +110,45 @@ class PartWriter:
 
     def __enter__(self) -> "PartWriter":
         """Begin the file of lines: it is there even if there are none."""
-        self.writer(self.work.lines(self.number), self.work.recipe.lines)
+        schema = self.work.recipe.lines
+        self.add(self.work.lines(self.number), schema, schema.empty_table())
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         """Put the files into their places, refused areas first; after an error remove them."""
-        footer = {"job": self.work.key, "part": self.number, **vars(self.counts)}
-        for place, (path, writer) in reversed(self.files.items()):
-            kinds = sorted(writer.kinds)
-            writer.close(**{FOOTER: json.dumps({**footer, "kinds": kinds})})
+        try:
             if kind is None:
-                path.replace(place)
-            else:
+                self.finish()
+        finally:
+            for path, writer in self.files.values():
+                writer.abandon()
                 path.unlink(missing_ok=True)
+
+    def finish(self) -> None:
+        """Write what is still held and the footers, then put the files into their places."""
+        footer = {"job": self.work.key, "part": self.number, **vars(self.counts)}
+        for place in reversed([*self.files]):
+            path, writer = self.files[place]
+            kinds = sorted(writer.kinds)
+            with failures_named(repr(str(place))):
+                writer.close(**{FOOTER: json.dumps({**footer, "kinds": kinds})})
+                path.replace(place)
+            del self.files[place]
 
     def write(self, collapsed: Collapsed) -> None:
         """Add a batch."""
         recipe = self.work.recipe
-        lines = self.writer(self.work.lines(self.number), recipe.lines)
-        lines.write(pa.Table.from_batches([collapsed.lines]))
-        if collapsed.refused.num_rows:
-            refused = self.writer(self.work.refused(self.number), recipe.refused)
-            refused.write(pa.Table.from_batches([collapsed.refused]))
+        lines, refused = (
+            pa.Table.from_batches([some]) for some in (collapsed.lines, collapsed.refused)
+        )
+        self.add(self.work.lines(self.number), recipe.lines, lines)
+        if refused.num_rows:
+            self.add(self.work.refused(self.number), recipe.refused, refused)
+
+    def add(self, place: Path, schema: pa.Schema, table: pa.Table) -> None:
+        """Add rows to the file that is to be in some place."""
+        with failures_named(repr(str(place))):
+            self.writer(place, schema).write(table)
 
     def writer(self, place: Path, schema: pa.Schema) -> GeoParquetWriter:
         """File that is to be in some place."""

@@ -52,7 +52,7 @@ def layer_names(path: Path, name: str = "IN") -> dict[str, str | None]:
         raise ParameterError(msg)
     try:
         if path.suffix.lower() in PARQUET_ENDINGS:
-            return {path.stem: geo_column(pq.read_schema(path).metadata, path).kind}
+            return {path.stem: geo_column(pq.read_schema(path), path).kind}
         with without_m():
             return {str(layer): kind for layer, kind in pyogrio.list_layers(path)}
     except UNREADABLE:

@@ -13,10 +13,18 @@ __all__ = [
     "Format",
     "endings_with_m",
     "format_of",
+    "sides_of",
 ]
 
 PARQUET = "Parquet"
 SHAPEFILE_SIDES = ("shx", "dbf", "prj", "cpg", "qix", "sbn", "sbx", "qpj")
+SIDES = {  # files beside one, by its ending: attributes, CRS, schema
+    "shp": SHAPEFILE_SIDES,
+    "tab": ("dat", "map", "id", "ind"),
+    "mif": ("mid",),
+    "csv": ("csvt", "prj"),
+    "gml": ("gfs", "xsd"),
+}
 
 
 @dataclass(frozen=True)
@@ -113,6 +121,16 @@ def format_of(path: Path, name: str = "OUT", more: tuple[str, ...] = ()) -> Form
         msg = f"{name} {str(path)!r} {found}, expected one of {known}"
         raise ParameterError(msg)
     return FORMATS[ending]
+
+
+def sides_of(path: Path) -> list[Path]:
+    """Files beside one that belong to it: of the same name, with endings of its format."""
+    endings = SIDES.get(path.suffix.removeprefix(".").lower(), ())
+    return sorted(
+        file
+        for file in (path.parent.iterdir() if endings else ())
+        if file.stem == path.stem and file.suffix.removeprefix(".").lower() in endings
+    )
 
 
 def endings_with_m() -> list[str]:

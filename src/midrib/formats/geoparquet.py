@@ -6,9 +6,10 @@ Source: https://geoparquet.org/releases/v1.1.0/
 import base64
 import json
 from collections.abc import Iterator
+from contextlib import suppress
 from itertools import count
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 import pyarrow as pa
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["CRS84_TEXT", "GeoColumn", "GeoParquetWriter", "Kind", "geo_column", "kinds_of"]
 
+Some = TypeVar("Some")
 Kind: TypeAlias = tuple[str, bool, bool]  # name, has Z, has M
 
 VERSION = "1.1.0"
@@ -75,34 +77,85 @@ class GeoColumn(NamedTuple):
     covering: str | None  # column with the boxes of the geometries
 
 
-def geo_column(metadata: dict[bytes, bytes] | None, path: Path) -> GeoColumn:
-    """Find the primary geometry column of a Parquet file's schema.
+def geo_column(schema: pa.Schema, path: Path) -> GeoColumn:
+    """Find the primary geometry column of a Parquet file.
 
     Raises
     ------
     ParameterError
-        If there is none, or its geometries are not WKB.
+        If there is none, if it is not told as the format has it, or if its geometries are not WKB.
     """
-    if not metadata or b"geo" not in metadata:
+    metadata = schema.metadata or {}
+    if b"geo" not in metadata:
         msg = f"IN {str(path)!r} is Parquet without geometries, expected GeoParquet"
         raise ParameterError(msg)
-    geo = json.loads(metadata[b"geo"])
-    name = geo["primary_column"]
-    column = geo["columns"][name]
-    if column["encoding"] != "WKB":
-        msg = (
-            f"IN {str(path)!r} has geometries in the encoding {column['encoding']!r}, expected WKB"
-        )
+    try:
+        geo = json.loads(metadata[b"geo"])
+    except ValueError as error:
+        raise broken(path, "it is no JSON") from error
+    name = entry(geo, "primary_column", str, path)
+    column = entry(entry(geo, "columns", dict, path), name, dict, path)
+    encoding = entry(column, "encoding", str, path)
+    if name not in schema.names:
+        raise broken(path, f"'primary_column' is {name!r}, which is no column of the file")
+    if encoding != "WKB":
+        msg = f"IN {str(path)!r} has geometries in the encoding {encoding!r}, expected WKB"
         raise ParameterError(msg)
-    crs = column.get("crs", CRS84)
-    kinds = {kind.removesuffix(" Z") for kind in column.get("geometry_types", [])}
-    covering = column.get("covering", {}).get("bbox", {}).get("xmin", [None])[0]
+    kinds = {str(kind).removesuffix(" Z") for kind in column.get("geometry_types") or []}
     return GeoColumn(
         name,
-        crs if crs is None or isinstance(crs, str) else json.dumps(crs),
+        projjson_of(column.get("crs", CRS84), path),
         kinds.pop() if len(kinds) == 1 else "Unknown",
-        covering,
+        covering_of(column),
     )
+
+
+def entry(about: Any, name: str, kind: type[Some], path: Path) -> Some:
+    """Look up what the metadata must have.
+
+    Raises
+    ------
+    ParameterError
+        If it is not there, or something else.
+    """
+    found = about.get(name) if isinstance(about, dict) else None
+    if not isinstance(found, kind):
+        was = "missing" if found is None else f"{found!r:.40}"
+        wanted = "an object" if kind is dict else "a text"
+        raise broken(path, f"{name!r} is {was}, expected {wanted}")
+    return found
+
+
+def projjson_of(crs: Any, path: Path) -> str | None:
+    """CRS as text; it may be text inside the metadata too.
+
+    Raises
+    ------
+    ParameterError
+        If it is no PROJJSON.
+    """
+    found = crs
+    if isinstance(crs, str):
+        with suppress(ValueError):
+            found = json.loads(crs)
+    if found is None:
+        return None
+    if not (isinstance(found, dict) and str(found.get("type")).endswith("CRS")):
+        raise broken(path, f"'crs' is {crs!r:.40}, expected PROJJSON")
+    return json.dumps(found)
+
+
+def covering_of(column: dict[str, Any]) -> str | None:
+    """Name of the column with the boxes of geometries, None if there is none."""
+    try:
+        return str(column["covering"]["bbox"]["xmin"][0])
+    except (LookupError, TypeError):
+        return None
+
+
+def broken(path: Path, what: str) -> ParameterError:
+    """Error about metadata that are not as the format has them."""
+    return ParameterError(f"IN {str(path)!r} has broken GeoParquet metadata (geo): {what}")
 
 
 class GeoParquetWriter:
@@ -195,6 +248,13 @@ class GeoParquetWriter:
         metadata["ARROW:schema"] = base64.b64encode(schema).decode()
         self.file.add_key_value_metadata(metadata)
         self.file.close()
+
+    def abandon(self) -> None:
+        """Let go of a file that is not to be kept, whatever the system says to that."""
+        self.held = []
+        with suppress(OSError):
+            self.file.close()
+        self.file.is_open = False  # else it is closed once more when nothing refers to it
 
 
 def numbered(name: str) -> Iterator[str]:

@@ -17,6 +17,7 @@ from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.contents import PARQUET_ENDINGS, UNREADABLE, without_m
 from midrib.formats.geoparquet import geo_column
+from midrib.formats.views import batches_without_views, without_views
 
 __all__ = [
     "BUFFER",
@@ -121,17 +122,17 @@ def open_parquet(path: Path, layer: str, batch_size: int, rows: Rows) -> Iterato
     """Open a GeoParquet file."""
     with pq.ParquetFile(path, buffer_size=BUFFER) as file:
         schema = file.schema_arrow
-        column = geo_column(schema.metadata, path)
+        column = geo_column(schema, path)
         dropped = (column.name, column.covering)
         names = [name for name in schema.names if name not in dropped]
         yield Source(
             layer,
-            pa.schema([schema.field(name) for name in names]),
+            without_views(pa.schema([schema.field(name) for name in names])),
             column.name,
             column.kind,
             column.crs,
             file.metadata.num_rows,
-            parquet_batches(file, batch_size, [*names, column.name], rows),
+            batches_without_views(parquet_batches(file, batch_size, [*names, column.name], rows)),
         )
 
 

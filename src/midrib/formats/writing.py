@@ -17,6 +17,7 @@ import shapely
 from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.endings import DECIMALS, FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
+from midrib.formats.failures import failures_named
 from midrib.formats.fitting import distinct_names, fit, fitted
 from midrib.formats.geoparquet import GeoParquetWriter, Kind, kinds_of
 from midrib.formats.reading import Geometries
@@ -184,10 +185,11 @@ def write_tables(path: Path, layer: Layer, tables: Callable[[], Iterable[pa.Tabl
             yield whole.filter(pc.is_valid(wkb)) if target.is_drawing else whole
 
     if target.driver == PARQUET:
-        writer = GeoParquetWriter(path, schema, layer.geometry, layer.crs)
-        for table in fitting():
-            writer.write(table)
-        writer.close()
+        with failures_named(f"OUT {path.name!r}"):
+            writer = GeoParquetWriter(path, schema, layer.geometry, layer.crs)
+            for table in fitting():
+                writer.write(table)
+            writer.close()
         return notes
     notes += changes(layer, target)
     lost = ["attributes"] * target.is_drawing
