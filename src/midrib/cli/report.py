@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rich.console import Console
@@ -69,11 +70,11 @@ class Report:
         self.started = time.perf_counter()
 
     def announce(self) -> None:
-        """Tell that kernels are compiled, if they are not there yet."""
-        from midrib.kernels.jit import cache_folder
+        """Tell that kernels are compiled, once, as soon as one is that is not there yet."""
+        from midrib.kernels.telling import tell_first_compilation
 
-        if next(cache_folder().rglob("*.nbi"), None) is None:
-            self.say("midrib compiles its kernels on first use, this takes about 20 seconds …")
+        sentence = "midrib compiles kernels on first use, the main ones take about 20 seconds …"
+        tell_first_compilation(partial(self.say, sentence))
 
     def track(
         self,

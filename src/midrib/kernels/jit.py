@@ -2,46 +2,22 @@
 
 Numba refuses to import a cached function when neither the package folder nor its own default
 folder is writable, and it does not notice that a function called from another file has changed.
-Both are settled here: the folder lies where NUMBA_CACHE_DIR says, in the user's cache, or in the
-temporary folder where that is read-only, and its name carries a digest of the kernels' sources.
-Numba asks for the folder when a function is decorated; other people's functions keep theirs.
+``keeping`` settles both. Numba asks for the folder when a function is decorated; other people's
+functions keep theirs.
 
 How kernels become code is told in ``compiling`` and ``parts``, which use internals of Numba; with
 a version whose internals are not known, they are compiled as everybody's functions are.
 """
 
-import hashlib
-import os
-import tempfile
 from collections.abc import Callable
 from functools import cache, partial
-from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
 import numba as nb
 
-__all__ = ["cache_folder", "njit"]
+from midrib.kernels.keeping import cache_folder, seal
 
-
-def cache_folder() -> Path:
-    """Return the folder that holds compiled kernels, made if it is missing."""
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.read_bytes())
-    name = f"kernels-{digest.hexdigest()[:16]}"
-    named = [os.environ.get(name) for name in ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME")]
-    roots = [Path(root) for root in named if root]
-    roots += [Path("~/.cache").expanduser(), Path(tempfile.gettempdir())]
-    for root in roots:
-        folder = root / "midrib" / name
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError:
-            continue
-        if os.access(folder, os.W_OK):
-            return folder
-    return Path(tempfile.mkdtemp(prefix="midrib-"))
-
+__all__ = ["njit"]
 
 CACHE_FOLDER = str(cache_folder())
 IS_KNOWN = nb.__version__.startswith("0.68.")  # its internals
@@ -97,6 +73,8 @@ def njit(
             dispatcher: Any = nb.njit(kernel, **(options | whole))
         finally:
             config.CACHE_DIR = usual
+        if entry and IS_KNOWN:
+            seal(dispatcher)
         within = of_kernel(kernel, options | WITHIN, dispatcher)
         dispatcher.get_call_template = lambda args, kws: within().call(args, kws)
         dispatcher.get_overload = lambda signature: within().code(signature)
