@@ -77,10 +77,24 @@ def test_a_disk_that_is_full_ends_in_a_sentence(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_parquet_file_that_does_not_fit_is_named(source: Path, tmp_path: Path) -> None:
-    recipe, out = recipe_of(source), tmp_path / "out.parquet"
-    with files_up_to(10_000), pytest.raises(MidribError, match=r"^OUT 'out.parquet' cannot be wri"):
+@pytest.mark.parametrize("ending", [*ENDINGS, "kml", "mif", "tab", "jml", "dxf", "gml", "sqlite"])
+def test_a_file_that_does_not_fit_is_named(ending: str, source: Path, tmp_path: Path) -> None:
+    recipe, out = recipe_of(source), tmp_path / f"out.{ending}"
+    said = rf"^OUT 'out.{ending}' cannot be written"
+    with files_up_to(20_000), pytest.raises(MidribError, match=said):
         write_piece(out, "in", batch_of(source), recipe, "Polygon")
+
+
+@pytest.mark.parametrize("ending", ["kml", "mif", "jml", "dxf"])
+def test_the_last_byte_of_a_file_is_missed(ending: str, source: Path, tmp_path: Path) -> None:
+    recipe, areas = recipe_of(source), batch_of(source).slice(0, 30)
+    whole, out = tmp_path / f"whole.{ending}", tmp_path / f"out.{ending}"
+    write_piece(whole, "in", areas, recipe, "Polygon")
+    with files_up_to(whole.stat().st_size - 1), pytest.raises(MidribError, match="cannot be wr"):
+        write_piece(out, "in", areas, recipe, "Polygon")
+    out.unlink()
+    write_piece(out, "in", areas, recipe, "Polygon")
+    assert out.read_bytes() == whole.read_bytes()  # nothing of looking for room is left
 
 
 @pytest.mark.parametrize("ending", ENDINGS)

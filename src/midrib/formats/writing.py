@@ -16,8 +16,16 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
-from midrib.formats.endings import DECIMALS, FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
-from midrib.formats.failures import failures_named
+from midrib.formats.endings import (
+    DECIMALS,
+    FOLDERS,
+    PARQUET,
+    SHAPEFILE_SIDES,
+    Format,
+    format_of,
+    sides_of,
+)
+from midrib.formats.failures import check_room, failures_named
 from midrib.formats.fitting import distinct_names, fit, fitted
 from midrib.formats.geoparquet import GeoParquetWriter, Kind, More, kinds_of
 from midrib.formats.reading import Geometries
@@ -236,6 +244,8 @@ def write_by_gdal(
         ) as error:
             msg = f"OUT {path.name!r} cannot be written as {target.driver}: {error}"
             raise ParameterError(msg) from error
+    for file in (path, *sides_of(path)) if target.hides_failures else ():
+        check_room(file, f"OUT {path.name!r}")
     said = dict.fromkeys(str(w.message) for w in caught)
     return [text for text in said if not text.startswith("'crs' was not provided")]
 
