@@ -1,5 +1,6 @@
 """``midrib collapse`` in parts: what is written is what one batch in memory would have written."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -76,10 +77,24 @@ def test_a_disk_that_is_full_ends_in_a_sentence(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_parquet_file_that_does_not_fit_is_named(source: Path, tmp_path: Path) -> None:
-    recipe, out = recipe_of(source), tmp_path / "out.parquet"
-    with files_up_to(10_000), pytest.raises(MidribError, match=r"^OUT 'out.parquet' cannot be wri"):
+@pytest.mark.parametrize("ending", [*ENDINGS, "kml", "mif", "tab", "jml", "dxf", "gml", "sqlite"])
+def test_a_file_that_does_not_fit_is_named(ending: str, source: Path, tmp_path: Path) -> None:
+    recipe, out = recipe_of(source), tmp_path / f"out.{ending}"
+    said = rf"^OUT 'out.{ending}' cannot be written"
+    with files_up_to(20_000), pytest.raises(MidribError, match=said):
         write_piece(out, "in", batch_of(source), recipe, "Polygon")
+
+
+@pytest.mark.parametrize("ending", ["kml", "mif", "jml", "dxf"])
+def test_the_last_byte_of_a_file_is_missed(ending: str, source: Path, tmp_path: Path) -> None:
+    recipe, areas = recipe_of(source), batch_of(source).slice(0, 30)
+    whole, out = tmp_path / f"whole.{ending}", tmp_path / f"out.{ending}"
+    write_piece(whole, "in", areas, recipe, "Polygon")
+    with files_up_to(whole.stat().st_size - 1), pytest.raises(MidribError, match="cannot be wr"):
+        write_piece(out, "in", areas, recipe, "Polygon")
+    out.unlink()
+    write_piece(out, "in", areas, recipe, "Polygon")
+    assert out.read_bytes() == whole.read_bytes()  # nothing of looking for room is left
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -225,3 +240,42 @@ def test_geoparquet_has_boxes_in_row_groups_of_any_tables(
     low = group.column(names.index("bbox_2.xmin")).statistics.min
     rows = range(sizes[0], sizes[0] + sizes[1])
     assert low == min(boxes[k]["xmin"] for k in rows if boxes[k])
+
+
+@pytest.mark.parametrize("options", [(), ("--connect",)])
+def test_epoch_and_edges_of_coordinates_are_kept_or_told(
+    options: tuple[str, ...], tmp_path: Path, midrib: Runner
+) -> None:
+    more = {"epoch": 2020.5, "edges": "spherical"}
+    path, n = tmp_path / "in.parquet", 5
+    table = pa.table({"geom": pa.array(shapely.to_wkb(areas(n)), type=pa.binary())})
+    writer = GeoParquetWriter(path, table.schema, "geom", RD_NEW, tuple(more.items()))
+    writer.write(table)
+    writer.close()
+    outs = ["out.parquet", "out_refused.parquet"]
+    outcome = midrib("collapse", path, tmp_path / outs[0], *options)
+    assert outcome.code == 1, outcome.err  # one area is refused
+    if not options:
+        assert midrib("collapse", path, tmp_path / "out").code == 1
+        outs += ["out/part-00000.parquet", "out/_refused/part-00000.parquet"]
+    for out in outs:
+        geo = json.loads(pq.read_schema(tmp_path / out).metadata[b"geo"])
+        assert geo["columns"]["geom"].items() >= more.items()
+    said = midrib("collapse", path, tmp_path / "out.gpkg", *options).err
+    assert "note: 'epoch' of IN, 2020.5, is kept in GeoParquet only\n" in said
+    assert "note: 'edges' of IN, 'spherical', is kept in GeoParquet only\n" in said
+    plain = write_areas(tmp_path / "plain.parquet", n)
+    assert "kept in" not in midrib("collapse", plain, tmp_path / "plain.gpkg").err
+
+
+def test_epochs_of_files_in_a_folder_have_to_be_the_same(tmp_path: Path, midrib: Runner) -> None:
+    table = pa.table({"geom": pa.array(shapely.to_wkb(areas(3)), type=pa.binary())})
+    (tmp_path / "in").mkdir()
+    for name, epoch in (("a", 2020.5), ("b", 2021.0)):
+        path = tmp_path / "in" / f"{name}.parquet"
+        writer = GeoParquetWriter(path, table.schema, "geom", RD_NEW, (("epoch", epoch),))
+        writer.write(table)
+        writer.close()
+    outcome = midrib("collapse", tmp_path / "in", tmp_path / "out.parquet")
+    assert outcome.code == 2
+    assert "b.parquet' has other columns or another CRS or epoch than 'a.parquet'" in outcome.err

@@ -80,7 +80,14 @@ def collapse(
         check_options(method, options)
         guides = guides_for(main, files[0], features)
         recipe = Recipe(
-            features.attributes, features.geometry, features.crs, method, options, has_m, guides
+            features.attributes,
+            features.geometry,
+            features.crs,
+            method,
+            options,
+            has_m,
+            guides,
+            features.more,
         )
         if connect:
             results = Results(features, has_m=has_m)

@@ -163,6 +163,7 @@ class Places(NamedTuple):
             source.geometry,
             kind or LINE_OF.get(source.kind, "LineString"),
             source.crs,
+            source.more,
         )
         with staged(self.out.parent, stale=self.stale) as stage:
             notes = write_layer(stage / self.out.name, lines)
@@ -266,7 +267,7 @@ def draw(source: "Source", guides: "Guides", options: dict[str, Any], figure: Pa
 def stored(paths: list[Path], schema: pa.Schema, recipe: "Recipe", layer: str, kind: str) -> Layer:
     """Tell what is known of a layer whose features are in parts."""
     attributes = pa.schema([*schema][:-1])
-    return Layer(layer, attributes, recipe.geometry, kind, recipe.crs, kinds_in(paths))
+    return Layer(layer, attributes, recipe.geometry, kind, recipe.crs, kinds_in(paths), recipe.more)
 
 
 def in_memory(layer: Layer, paths: list[Path]) -> Features:
@@ -280,6 +281,7 @@ def in_memory(layer: Layer, paths: list[Path]) -> Features:
         layer.geometry,
         layer.kind,
         layer.crs,
+        layer.more,
     )
 
 

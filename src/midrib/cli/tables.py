@@ -198,6 +198,7 @@ def rows_of(table: Table, layer: str) -> Features:
         source.geometry,
         "Point" + " Z" * has_z,
         source.crs,
+        source.more,
     )
 
 

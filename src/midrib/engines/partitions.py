@@ -94,18 +94,20 @@ def check_alike(files: list[Path]) -> None:
     Raises
     ------
     ParameterError
-        If a file has other columns, or another CRS, than the first.
+        If a file has other columns, or another CRS or epoch, than the first.
     """
     if len(files) == 1:
         return
     known = None
     for file in files:
         with open_layer(file, file.stem) as source:
-            found = (source.attributes.remove_metadata(), source.geometry, source.crs)
+            attributes = source.attributes.remove_metadata()
+            found = (attributes, source.geometry, source.crs, source.more)
         known = known or found
         if found != known:
             msg = (
-                f"IN {str(file)!r} has other columns or another CRS than {files[0].name!r}, "
+                f"IN {str(file)!r} has other columns or another CRS or epoch than "
+                f"{files[0].name!r}, "
                 "expected the same in all files"
             )
             raise ParameterError(msg)

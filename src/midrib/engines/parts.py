@@ -157,7 +157,8 @@ class PartWriter:
             # Two machines that make the same part, one of them by mistake, do not meet.
             path = place.with_name(f"{UNFINISHED}{self.number:05}-{os.getpid()}-{time.time_ns()}")
             recipe = self.work.recipe
-            self.files[place] = path, GeoParquetWriter(path, schema, recipe.geometry, recipe.crs)
+            writer = GeoParquetWriter(path, schema, recipe.geometry, recipe.crs, recipe.more)
+            self.files[place] = path, writer
         return self.files[place][1]
 
 

@@ -8,6 +8,7 @@ import pyarrow as pa
 from midrib.curves.aftercare import aftercare
 from midrib.curves.methods import finder_of
 from midrib.formats.fitting import free_name
+from midrib.formats.geoparquet import More
 from midrib.formats.guides import Guides, NoGuides
 from midrib.formats.units import is_geographic
 
@@ -49,6 +50,8 @@ class Recipe:
         Whether lines carry the width as M values.
     guides : Guides
         Directional polylines.
+    more : pairs
+        Metadata of GeoParquet that lines have from the areas.
     """
 
     attributes: pa.Schema
@@ -58,6 +61,7 @@ class Recipe:
     options: dict[str, Any] = field(default_factory=dict)
     has_m: bool = False
     guides: Guides = field(default_factory=NoGuides)
+    more: More = ()
 
     @property
     def geographic(self) -> bool:

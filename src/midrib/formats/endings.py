@@ -51,6 +51,8 @@ class Format:
         Whether coordinates lose digits.
     is_global : bool
         Whether all coordinates are turned into longitude and latitude (WGS 84).
+    hides_failures : bool
+        Whether its driver says nothing of a disk that is full.
     identifier : str
         Name of its column for numbers of features, if it has one among the others.
     options : tuple of pairs
@@ -66,6 +68,7 @@ class Format:
     has_one_kind: bool = False
     rounds: bool = False
     is_global: bool = False
+    hides_failures: bool = False
     identifier: str = ""
     options: tuple[tuple[str, str], ...] = ()
 
@@ -94,12 +97,12 @@ FORMATS = {
         options=(("FORMAT", "SPATIALITE"),),
     ),
     "gml": Format("GML", rounds=True),
-    "kml": Format("KML", is_global=True),
+    "kml": Format("KML", is_global=True, hides_failures=True),
     "csv": Format("CSV", has_crs=False, has_m=True, options=(("GEOMETRY", "AS_WKT"),)),
     "tab": Format("MapInfo File", rounds=True),
-    "mif": Format("MapInfo File", rounds=True),
-    "jml": Format("JML", rounds=True),
-    "dxf": Format("DXF", is_drawing=True, has_crs=False, rounds=True),
+    "mif": Format("MapInfo File", rounds=True, hides_failures=True),
+    "jml": Format("JML", rounds=True, hides_failures=True),
+    "dxf": Format("DXF", is_drawing=True, has_crs=False, rounds=True, hides_failures=True),
 }
 FOLDERS = tuple(f".{ending}" for ending, known in FORMATS.items() if known.is_folder)
 

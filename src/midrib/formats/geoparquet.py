@@ -25,13 +25,15 @@ if TYPE_CHECKING:
     from midrib.formats.reading import Geometries
     from midrib.types import Floats
 
-__all__ = ["CRS84_TEXT", "GeoColumn", "GeoParquetWriter", "Kind", "geo_column", "kinds_of"]
+__all__ = ["CRS84_TEXT", "GeoColumn", "GeoParquetWriter", "Kind", "More", "geo_column", "kinds_of"]
 
 Some = TypeVar("Some")
+More: TypeAlias = tuple[tuple[str, Any], ...]  # metadata of a column that results keep
 Kind: TypeAlias = tuple[str, bool, bool]  # name, has Z, has M
 
 VERSION = "1.1.0"
 GROUP_ROWS, GROUP_BYTES = 50_000, 64_000_000  # of a row group at most, bytes of WKB
+KEPT = {"epoch": None, "edges": "planar"}  # what no entry stands for
 CORNERS = ("xmin", "ymin", "xmax", "ymax")
 BOX = pa.struct([(corner, pa.float64()) for corner in CORNERS])
 CRS84 = {  # what a column without "crs" means
@@ -75,6 +77,7 @@ class GeoColumn(NamedTuple):
     crs: str | None  # PROJJSON
     kind: str  # of geometry, "Unknown" if it holds several
     covering: str | None  # column with the boxes of the geometries
+    more: More  # "epoch" of the coordinates, "edges" that are not straight
 
 
 def geo_column(schema: pa.Schema, path: Path) -> GeoColumn:
@@ -107,6 +110,7 @@ def geo_column(schema: pa.Schema, path: Path) -> GeoColumn:
         projjson_of(column.get("crs", CRS84), path),
         kinds.pop() if len(kinds) == 1 else "Unknown",
         covering_of(column),
+        tuple((key, column[key]) for key, usual in KEPT.items() if column.get(key, usual) != usual),
     )
 
 
@@ -173,10 +177,14 @@ class GeoParquetWriter:
         Name of the column of WKB.
     crs : str or None
         PROJJSON.
+    more : pairs
+        Further metadata of the column.
     """
 
-    def __init__(self, path: Path, schema: pa.Schema, column: str, crs: str | None) -> None:
-        self.column, self.crs = column, crs
+    def __init__(
+        self, path: Path, schema: pa.Schema, column: str, crs: str | None, more: More = ()
+    ) -> None:
+        self.column, self.crs, self.more = column, crs, more
         taken = {*schema.names}
         self.covering = next(name for name in numbered("bbox") if name not in taken)
         schema = schema.remove_metadata().append(pa.field(self.covering, BOX))
@@ -239,6 +247,7 @@ class GeoParquetWriter:
             "geometry_types": sorted(self.types),
             "crs": None if self.crs is None else json.loads(self.crs),
             "covering": {"bbox": {corner: [self.covering, corner] for corner in CORNERS}},
+            **dict(self.more),
         }
         if self.bounds:
             about["bbox"] = shapely.total_bounds(shapely.box(*np.transpose(self.bounds))).tolist()

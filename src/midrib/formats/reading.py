@@ -16,7 +16,7 @@ import shapely
 from midrib import interrupts
 from midrib.errors import ParameterError
 from midrib.formats.contents import PARQUET_ENDINGS, UNREADABLE, without_m
-from midrib.formats.geoparquet import geo_column
+from midrib.formats.geoparquet import More, geo_column
 from midrib.formats.views import batches_without_views, without_views
 
 __all__ = [
@@ -66,6 +66,10 @@ class Source:
         PROJJSON.
     count : int or None
         Number of features, None where it takes long to find out.
+    stream : iterator of pyarrow.RecordBatch
+        The features.
+    more : pairs
+        Metadata of GeoParquet that results keep.
     """
 
     layer: str
@@ -75,6 +79,7 @@ class Source:
     crs: str | None
     count: int | None
     stream: Iterator[pa.RecordBatch]
+    more: More = ()
 
     def batches(self) -> Iterator[Batch]:
         """Features in the order of the file, after a batch of none; can be walked through once."""
@@ -133,6 +138,7 @@ def open_parquet(path: Path, layer: str, batch_size: int, rows: Rows) -> Iterato
             column.crs,
             file.metadata.num_rows,
             batches_without_views(parquet_batches(file, batch_size, [*names, column.name], rows)),
+            column.more,
         )
 
 

@@ -16,10 +16,18 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
-from midrib.formats.endings import DECIMALS, FOLDERS, PARQUET, SHAPEFILE_SIDES, Format, format_of
-from midrib.formats.failures import failures_named
+from midrib.formats.endings import (
+    DECIMALS,
+    FOLDERS,
+    PARQUET,
+    SHAPEFILE_SIDES,
+    Format,
+    format_of,
+    sides_of,
+)
+from midrib.formats.failures import check_room, failures_named
 from midrib.formats.fitting import distinct_names, fit, fitted
-from midrib.formats.geoparquet import GeoParquetWriter, Kind, kinds_of
+from midrib.formats.geoparquet import GeoParquetWriter, Kind, More, kinds_of
 from midrib.formats.reading import Geometries
 from midrib.formats.units import is_wgs84
 
@@ -54,6 +62,7 @@ class Features(NamedTuple):
     geometry: str  # name of the column
     kind: str  # of geometry, where none is there to tell
     crs: str | None
+    more: More = ()  # metadata of GeoParquet
 
 
 class Layer(NamedTuple):
@@ -65,6 +74,7 @@ class Layer(NamedTuple):
     kind: str  # of geometry, where none is there to tell
     crs: str | None
     kinds: frozenset[Kind]  # that there are
+    more: More = ()  # metadata of GeoParquet
 
 
 def check_free(paths: Sequence[Path], name: str, *, overwrite: bool) -> None:
@@ -150,7 +160,13 @@ def write_layer(path: Path, features: Features) -> list[str]:
     wkb = pa.array(shapely.to_wkb(features.geometries, flavor="iso"), type=pa.binary())
     schema, kinds = features.attributes.schema, kinds_of(features.geometries)
     layer = Layer(
-        features.layer, schema, features.geometry, features.kind, features.crs, frozenset(kinds)
+        features.layer,
+        schema,
+        features.geometry,
+        features.kind,
+        features.crs,
+        frozenset(kinds),
+        features.more,
     )
     names = [*schema.names, features.geometry]
     table = pa.table([*features.attributes.columns, wkb], names=names)
@@ -186,7 +202,7 @@ def write_tables(path: Path, layer: Layer, tables: Callable[[], Iterable[pa.Tabl
 
     if target.driver == PARQUET:
         with failures_named(f"OUT {path.name!r}"):
-            writer = GeoParquetWriter(path, schema, layer.geometry, layer.crs)
+            writer = GeoParquetWriter(path, schema, layer.geometry, layer.crs, layer.more)
             for table in fitting():
                 writer.write(table)
             writer.close()
@@ -195,6 +211,7 @@ def write_tables(path: Path, layer: Layer, tables: Callable[[], Iterable[pa.Tabl
     lost = ["attributes"] * target.is_drawing
     lost += ["a CRS"] * (layer.crs is not None and not target.has_crs)
     notes += [f"{target.driver} has no place for {what}" for what in lost]
+    notes += [f"{key!r} of IN, {value!r}, is kept in GeoParquet only" for key, value in layer.more]
     batches = (batch for table in fitting() for batch in table.to_batches())
     reader = pa.RecordBatchReader.from_batches(schema, batches)
     return notes + write_by_gdal(path, layer, target, wanted.kind, reader)
@@ -227,6 +244,8 @@ def write_by_gdal(
         ) as error:
             msg = f"OUT {path.name!r} cannot be written as {target.driver}: {error}"
             raise ParameterError(msg) from error
+    for file in (path, *sides_of(path)) if target.hides_failures else ():
+        check_room(file, f"OUT {path.name!r}")
     said = dict.fromkeys(str(w.message) for w in caught)
     return [text for text in said if not text.startswith("'crs' was not provided")]
 
