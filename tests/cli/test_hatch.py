@@ -90,6 +90,44 @@ def test_no_stroke_enters_an_excluded_area(slopes: Path, tmp_path: Path, midrib:
     assert len(both[1]) < len(both[0])
 
 
+def test_zones_are_taken_out_of_collections(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    house, others = shapely.box(20, 2, 30, 6), shapely.box(40, 2, 44, 6)
+    nested = shapely.GeometryCollection([shapely.GeometryCollection([house]), others])
+    found = []
+    for name, wkts in (("plain", [house.wkt, others.wkt]), ("nested", [nested.wkt, None])):
+        zones, out = tmp_path / f"zones-{name}.gpkg", tmp_path / f"{name}.gpkg"
+        write(zones, wkts)
+        assert midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones).code == 0
+        found.append(pyogrio.read_dataframe(out, layer="strokes").geometry.to_numpy())
+    assert shapely.equals_exact(*found, tolerance=0.0).all()
+    ink = shapely.union_all(found[1])
+    assert not ink.intersects(house)
+    assert not ink.intersects(others)
+
+
+@pytest.mark.parametrize(
+    ("things", "told"),
+    [
+        (["LINESTRING (30 -9, 30 20)", "POLYGON ((20 2, 30 2, 30 6, 20 2))"], "1 LineString"),
+        (
+            ["GEOMETRYCOLLECTION (POLYGON ((20 2, 30 2, 30 6, 20 2)), POINT (9 9))", "POINT (1 1)"],
+            "2 Point",
+        ),
+        (["LINESTRING (30 -9, 30 20)", "POINT (1 1)"], "1 LineString, 1 Point"),
+    ],
+)
+def test_zones_that_are_no_areas_are_refused(
+    things: list[str | None], told: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    zones, out = tmp_path / "zones.gpkg", tmp_path / "out.gpkg"
+    write(zones, things)
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones)
+    assert outcome.code == 2
+    sentence = f"holds {told}, expected Polygons and MultiPolygons only"
+    assert sentence in " ".join(outcome.err.split())
+    assert not out.exists()
+
+
 def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runner) -> None:
     source, zones = tmp_path / "in.gpkg", tmp_path / "houses.gpkg"
     gpd.GeoDataFrame(geometry=[shapely.box(20, 2, 30, 6)], crs="EPSG:2177").to_file(zones)

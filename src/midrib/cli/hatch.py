@@ -11,8 +11,6 @@ from midrib.cli.options import SharedEdges, StartSide
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from shapely import MultiPolygon, Polygon
-
     from midrib.cli.report import Report
     from midrib.formats.drawing.content import Drawing
 
@@ -66,6 +64,7 @@ def hatch(
 ) -> None:
     """Hatch slopes at map scale; draw walls, stairs, conveyors, gantries and water gates."""
     from midrib.cli.report import Report
+    from midrib.cli.zones import zones_in
     from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
     from midrib.formats.drawing.write import check_places, write_drawing
     from midrib.formats.slopes import read_slopes
@@ -125,26 +124,6 @@ def hatch(
 def given(**values: Any) -> dict[str, Any]:
     """Values that are given."""
     return {name: value for name, value in values.items() if value is not None}
-
-
-def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
-    """Read the areas of a file, whatever else is in it.
-
-    Raises
-    ------
-    ParameterError
-        If they are in another CRS than the slopes.
-    """
-    from shapely import MultiPolygon, Polygon
-
-    from midrib.formats.contents import choose_layer
-    from midrib.formats.reading import open_layer
-    from midrib.formats.units import check_same_plane
-
-    with open_layer(path, choose_layer(path, None, "--exclude")) as source:
-        check_same_plane(source.crs, crs, f"--exclude {str(path)!r}")
-        features = [geometry for batch in source.batches() for geometry in batch.geometries]
-    return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 
 
 def why_nothing(drawing: "Drawing", standard: str) -> str:
