@@ -138,6 +138,20 @@ def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runne
     assert "is in another CRS than IN" in outcome.err
 
 
+def test_strokes_that_zones_have_taken_are_counted(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    told = []
+    for name, zone in (("some", shapely.box(20, 2, 30, 6)), ("none", shapely.box(200, 2, 210, 6))):
+        zones, out = tmp_path / f"zones-{name}.gpkg", tmp_path / f"{name}.gpkg"
+        write(zones, [zone.wkt])
+        outcome = midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones)
+        told.append((len(pyogrio.read_dataframe(out, layer="strokes")), outcome.err))
+    (left, some), (whole, none) = told
+    assert f"note: strokes left out in zones of --exclude: {whole - left}\n" in some
+    assert "in zones" not in none
+
+
 @pytest.mark.parametrize(
     ("command", "option"),
     [(("hatch", "a.gpkg"), "--top"), (("check",), "--top"), (("check",), "--strokes")],

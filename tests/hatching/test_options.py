@@ -137,6 +137,8 @@ def test_zones_hide_strokes_and_move_none() -> None:
     assert 0 < np.count_nonzero(~visible) < 4  # short ones end above it
     assert (hatching.on_top == plain.on_top[visible]).all()
     assert (hatching.is_long == plain.is_long[visible]).all()
+    assert plain.n_excluded == 0
+    assert hatching.n_excluded == np.count_nonzero(~visible)
     assert len(hatch(rectangle(), exclude=[zone, box(80, 0, 85, 9)]).strokes) < len(
         hatching.strokes
     )
@@ -302,6 +304,7 @@ def test_zones_that_hide_all_are_told_and_others_are_not() -> None:
     area = rectangle().area
     hidden = hatch(rectangle(), exclude=area)
     assert hidden.strokes.size == 0
+    assert hidden.n_excluded == hatch(rectangle()).strokes.size
     assert [problem.reason for problem in hidden.problems] == [
         "zones of exclude hide every stroke; none is drawn"
     ]

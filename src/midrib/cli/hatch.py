@@ -154,6 +154,8 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         f"{strokes:,} strokes{drawn_too} of {len(drawing.objects):,} objects "
         f"at 1:{drawing.scale:g}, {drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
+    if drawing.n_excluded:
+        report.say(f"note: strokes left out in zones of --exclude: {drawing.n_excluded:,}")
     report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:
         report.say("note: IN does not say what its unit is, it is taken for the metre")
