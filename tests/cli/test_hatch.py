@@ -11,6 +11,7 @@ import shapely
 from midrib.formats.contents import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
+from tests.formats.gml_files import BDOT_2015, collection, earthwork, ring
 from tests.formats.layers import RD_NEW, write
 
 AREAS = [
@@ -25,7 +26,8 @@ OUTS = ("gpkg", "parquet", "geojson", "dxf", "svg", "pdf")
 def register(folder: Path, areas: list[str], tops: list[str]) -> Path:
     """Layer of slopes with their tops as a field."""
     path = folder / "in.gpkg"
-    table = pa.table({"name": [f"s{i}" for i in range(len(areas))], "crest": tops})
+    columns = {"name": [f"s{i}" for i in range(len(areas))], "crest": tops}
+    table = pa.table({name: pa.array(texts, pa.string()) for name, texts in columns.items()})
     write_layer(path, Features("slopes", table, shapely.from_wkt(areas), "geom", "Polygon", RD_NEW))
     return path
 
@@ -329,6 +331,47 @@ def test_when_nothing_is_drawn_the_reason_is_said(
     assert outcome.code == 1
     assert f": {sentence}" in outcome.err.partition("nothing is drawn: ")[2]
     assert set(layer_names(tmp_path / "out.gpkg")) >= {"outlines", "problems"}
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "pdf", "svg"])
+def test_an_empty_layer_is_no_failure(ending: str, tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("hatch", register(tmp_path, [], []), out, "--top", "crest")
+    assert outcome.code == 0
+    assert "note: IN has no slopes\n" in outcome.err
+    is_sheet = ending != "gpkg"
+    assert out.exists() != is_sheet
+    assert ("note: there is nothing to draw, no sheet is written" in outcome.err) == is_sheet
+    assert ("written to" in outcome.err) != is_sheet
+
+
+def test_no_old_sheet_stays_where_nothing_is_drawn(tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / "out.svg"
+    out.write_text("old")
+    source = register(tmp_path, [], [])
+    assert midrib("hatch", source, out, "--top", "crest", "--overwrite").code == 0
+    assert not out.exists()
+
+
+def test_a_register_whose_slopes_have_ended_is_told_from_one_without(
+    tmp_path: Path, midrib: Runner
+) -> None:
+    x, y = 6_481_000.0, 5_616_000.0
+    corners = [(x, y), (x + 90, y), (x + 90, y + 9), (x, y + 9)]
+    slope = earthwork("old", ring(corners), corners[0], corners[1])
+    ended = slope.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
+    out = tmp_path / "out.gpkg"
+    told = {}
+    for name, features in (("none", []), ("ended", [ended])):
+        path = collection(tmp_path / f"{name}.gml", BDOT_2015, *features)
+        told[name] = midrib("hatch", path, out, "--standard", "pl-2015", "--overwrite")
+    assert (told["none"].code, told["ended"].code) == (0, 1)
+    assert "--history" not in told["none"].err
+    sentence = "nothing is drawn: slopes that have ended: 1; --history draws them"
+    assert sentence in told["ended"].err
+    options = ["--standard", "pl-2015", "--history", "--overwrite"]
+    assert midrib("hatch", path, out, *options).code == 0
+    assert len(pyogrio.read_dataframe(out, layer="strokes")) == 90 / 4.5 - 1
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ def hatch(
     from midrib.cli.zones import zones_in
     from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
     from midrib.formats.drawing.write import check_places, write_drawing
-    from midrib.formats.slopes import read_slopes
+    from midrib.formats.slopes import count_ended, read_slopes
 
     values = given(
         symbol=symbol,
@@ -92,9 +92,8 @@ def hatch(
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)
-    slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=start, end=end, kind=kind, history=history
-    )
+    told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end, "kind": kind}
+    slopes, problems = read_slopes(source, history=history, **told)
     if exclude is not None:
         options["exclude"] = zones_in(exclude, slopes[0].crs if slopes else None)
     report = Report(quiet=quiet)
@@ -112,9 +111,13 @@ def hatch(
     for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
-    if not slopes and not problems:  # which is no failure: a register may hold none
-        report.say("note: IN has no slopes; those that have ended come with --history")
-        return
+    if not slopes and not problems:
+        ended = 0 if history else count_ended(source, problems, **told)
+        if not ended:  # which is no failure: a register may hold none
+            report.say("note: IN has no slopes")
+            return
+        report.say(f"nothing is drawn: slopes that have ended: {ended:,}; --history draws them")
+        raise typer.Exit(1)
     if not drawing.has_symbols:
         report.say(f"nothing is drawn: {why_nothing(drawing, standard)}")
     if drawing.n_refused or not drawing.has_symbols:
@@ -156,7 +159,8 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
     )
     if drawing.n_excluded:
         report.say(f"note: strokes left out in zones of --exclude: {drawing.n_excluded:,}")
-    report.say(f"written to {out}")
+    if out.exists():
+        report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:
         report.say("note: IN does not say what its unit is, it is taken for the metre")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]

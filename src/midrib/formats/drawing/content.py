@@ -104,6 +104,11 @@ class Drawing:
         return sum(drawn.n_excluded for drawn in self.objects)
 
     @property
+    def is_blank(self) -> bool:
+        """Whether there is nothing to see: no object, and no problem with a place."""
+        return not self.objects and all(trouble.where is None for trouble in self.problems)
+
+    @property
     def has_symbols(self) -> bool:
         """Whether there is a stroke or a symbol in it; outlines are none."""
         return any(drawn.symbols.count for drawn in self.objects)
