@@ -7,7 +7,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from ezdxf.filemanagement import new
-from shapely import GeometryCollection, LineString, Point, box
+from shapely import GeometryCollection, LineString, Point, Polygon, box
 
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
@@ -123,6 +123,25 @@ def test_options_with_a_file_of_the_wrong_kind_are_named(tmp_path: Path, midrib:
     sheet = midrib("hatch", path, tmp_path / "out.docx")
     assert "expected one of .dxf, .svg, .pdf, .gml, .gpkg" in sheet.err
     assert {run.code for run in (excluded, strokes, table, sheet)} == {2}
+
+
+def test_areas_that_are_none_are_not_told_to_lack_a_top(tmp_path: Path, midrib: Runner) -> None:
+    bow_tie = Polygon([(100, 0), (104, 4), (104, 0), (100, 4)])
+    odd = {
+        "its geometry is nothing, expected a Polygon": None,
+        "its geometry is an empty Polygon, expected a Polygon": Polygon(),
+        "its area is not valid: Self-intersection at (102, 2)": bow_tie,
+        "its geometry is Point, expected a Polygon": Point(50, 0),
+        "its geometry is an empty GeometryCollection, expected a Polygon": GeometryCollection(),
+        "it has no top": box(200, 0, 220, 4),
+    }
+    path = save(tmp_path / "a.gpkg", "slopes", [SLAB, *odd.values()], id=[*"abcdefg"])
+    save(path, "top", [LineString([(0, 4), (20, 4)])])
+    out = tmp_path / "out.gpkg"
+    outcome = midrib("hatch", path, out, "--layer", "slopes", "--top", "top")
+    assert outcome.code == 1
+    for name, reason in zip("bcdefg", odd, strict=True):
+        assert f"refused: {name}: {reason}\n" in outcome.err
 
 
 def test_rows_that_are_no_slopes_are_named_and_the_rest_is_drawn(
