@@ -4,9 +4,19 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import shapely
+from shapely import MultiPolygon
 
 from midrib.hatching.asked import STIFFNESS, Asked, check_asked, least_length
-from midrib.hatching.finishing import Finished, Problem, finish, hide, lines_of, zones_of
+from midrib.hatching.finishing import (
+    Finished,
+    Problem,
+    finish,
+    hide,
+    islands_of,
+    lines_of,
+    zones_of,
+)
 from midrib.hatching.laying import Ground
 from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
@@ -221,6 +231,7 @@ def hatch(
         drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness, share)
     curves = None if where is None else where.curves
     finished = finish(drawn, ground, least, first, None, strip, curves, offset)
+    finished.problems.extend(seems_closed(drawn, strip))
     n_placed = int(np.count_nonzero(finished.kept))
     if zones is not None:
         hide(drawn, finished.kept, finished.share, zones, finished.problems)
@@ -228,6 +239,23 @@ def hatch(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )
     return replace(made, zones=zones, n_excluded=n_placed - made.strokes.size)
+
+
+def seems_closed(drawn: Drawn, strip: Strip) -> list[Problem]:
+    """Tell of a slope with ends whose strokes all meet an island: it may run all round that."""
+    islands = [] if strip.is_closed else islands_of(strip)
+    chords = lines_of(drawn.on_top, drawn.on_toe, np.ones(drawn.kept.size))[drawn.kept]
+    if (
+        not islands
+        or not chords.size
+        or not shapely.intersects(chords, MultiPolygon(islands)).all()
+    ):
+        return []
+    reason = (
+        "every stroke meets an island; if the slope runs all round it, its top is closed, expected "
+        "midrib.Strip(top, toe, area) with the island's edge as top or toe"
+    )
+    return [Problem(max(islands, key=lambda island: island.area).representative_point(), reason)]
 
 
 def assemble(
