@@ -5,7 +5,6 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 import shapely
-from shapely import MultiPolygon
 
 from midrib.hatching.asked import STIFFNESS, Asked, check_asked, least_length
 from midrib.hatching.finishing import (
@@ -245,11 +244,9 @@ def seems_closed(drawn: Drawn, strip: Strip) -> list[Problem]:
     """Tell of a slope with ends whose strokes all meet an island: it may run all round that."""
     islands = [] if strip.is_closed else islands_of(strip)
     chords = lines_of(drawn.on_top, drawn.on_toe, np.ones(drawn.kept.size))[drawn.kept]
-    if (
-        not islands
-        or not chords.size
-        or not shapely.intersects(chords, MultiPolygon(islands)).all()
-    ):
+    if not islands or not chords.size:
+        return []
+    if not shapely.intersects(chords, shapely.union_all(islands)).all():
         return []
     reason = (
         "every stroke meets an island; if the slope runs all round it, its top is closed, expected "
