@@ -278,7 +278,7 @@ def test_the_only_part_of_a_multipolygon_is_an_area() -> None:
         ({"start": Point()}, ParameterError, "start is .*, expected a Point or a pair"),
         ({"start": (0, 0), "end": (0, 0)}, InvalidAreaError, "are the same point"),
         ({"start": (-1, -1), "end": (-2, -3)}, InvalidAreaError, "are the same point"),
-        ({"along": line("0 0, 5 0, 5 1, 0 0")}, InvalidAreaError, "same point"),
+        ({"along": line("0 0, 5 0, 5 1, 0 0")}, InvalidAreaError, "along is closed"),
     ],
 )
 def test_hints_that_make_no_sense_are_refused(
@@ -286,6 +286,17 @@ def test_hints_that_make_no_sense_are_refused(
 ) -> None:
     with pytest.raises(error, match=message):
         split(rectangle(10.0, 2.0), **options)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_closed_top_is_sent_to_strip(turned: bool) -> None:
+    area = box(0, 0, 30, 20).difference(box(9, 6, 20, 15))
+    top, toe = LineString(area.interiors[0]), LineString(area.exterior)
+    with pytest.raises(
+        InvalidAreaError, match=r"along is closed.* midrib\.Strip\(top, toe, area\)"
+    ):
+        split(area, along=toe if turned else top)
+    assert Strip(top, toe, area).is_closed
 
 
 @pytest.mark.parametrize("point", [(0.0, 0.0), (0.0, 4.0), (7.0, 9.0)])

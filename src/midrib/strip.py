@@ -164,7 +164,8 @@ def split(
     along : LineString, optional
         A directional polyline on or near the boundary: the curves divide where it starts and ends,
         and the part beside it becomes the main curve, in its direction. Along the boundary, these
-        places are at least a quarter of the mean width apart.
+        places are at least a quarter of the mean width apart. A closed one divides nothing: the
+        strip of a top all round a hole is ``Strip(top, toe, area)``.
     start, end : Point or pair of float, optional
         Where the curves divide: the nearest points of the outer boundary. With only one of them
         given, the other is the end farthest from it.
@@ -181,8 +182,8 @@ def split(
     GeometryTypeError
         If ``area`` is not a Polygon, or ``along`` not a LineString.
     InvalidAreaError
-        If the area is not valid, start and end are one point of the boundary, or those of
-        ``along`` are too near each other.
+        If the area is not valid, start and end are one point of the boundary, those of ``along``
+        are too near each other, or it is closed.
     ParameterError
         If ``along`` is given together with ``start`` or ``end``.
 
@@ -254,8 +255,15 @@ def divide_along(boundary: Boundary, along: LineString, scale: Scale) -> Layout:
     Raises
     ------
     InvalidAreaError
-        If the two ends are so near each other along the boundary that one curve is next to nothing.
+        If it is closed, or its two ends are so near each other along the boundary that one curve
+        is next to nothing.
     """
+    if along.is_closed:
+        msg = (
+            "along is closed, expected a line that ends elsewhere than it starts; where a closed "
+            "top and toe bound the area, midrib.Strip(top, toe, area) has both"
+        )
+        raise InvalidAreaError(msg)
     points = shapely.get_coordinates(along)
     first, last = end_at(boundary, points[0], scale), end_at(boundary, points[-1], scale)
     middle = shapely.get_coordinates(along.interpolate(0.5, normalized=True))[0]

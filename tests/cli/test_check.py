@@ -168,10 +168,16 @@ def test_slopes_and_findings_are_drawn(
     assert midrib("check", faulty, "--figure", figure).code == 2
 
 
-def test_a_register_without_slopes_is_drawn(midrib: Runner, tmp_path: Path) -> None:
-    path = collection(tmp_path / "in.gml", BDOT_2015)
-    outcome = midrib("check", path, "--figure", tmp_path / "out.svg", "-o", tmp_path / "out.gpkg")
+def test_of_a_register_without_slopes_there_is_a_table_and_no_figure(
+    midrib: Runner, tmp_path: Path
+) -> None:
+    path, figure = collection(tmp_path / "in.gml", BDOT_2015), tmp_path / "out.svg"
+    figure.write_text("old")
+    outcome = midrib("check", path, "--figure", figure, "-o", tmp_path / "out.gpkg", "--overwrite")
     assert outcome.code == 0, outcome.err
+    assert "note: there is nothing to draw, no figure is written\n" in outcome.err
+    assert not figure.exists()
+    assert "out.svg" not in outcome.err
     assert len(read_all(tmp_path / "out.gpkg")[2]) == 0
 
 

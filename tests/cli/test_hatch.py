@@ -11,6 +11,7 @@ import shapely
 from midrib.formats.contents import layer_names
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
+from tests.formats.gml_files import BDOT_2015, collection, earthwork, ring
 from tests.formats.layers import RD_NEW, write
 
 AREAS = [
@@ -25,7 +26,8 @@ OUTS = ("gpkg", "parquet", "geojson", "dxf", "svg", "pdf")
 def register(folder: Path, areas: list[str], tops: list[str]) -> Path:
     """Layer of slopes with their tops as a field."""
     path = folder / "in.gpkg"
-    table = pa.table({"name": [f"s{i}" for i in range(len(areas))], "crest": tops})
+    columns = {"name": [f"s{i}" for i in range(len(areas))], "crest": tops}
+    table = pa.table({name: pa.array(texts, pa.string()) for name, texts in columns.items()})
     write_layer(path, Features("slopes", table, shapely.from_wkt(areas), "geom", "Polygon", RD_NEW))
     return path
 
@@ -90,6 +92,44 @@ def test_no_stroke_enters_an_excluded_area(slopes: Path, tmp_path: Path, midrib:
     assert len(both[1]) < len(both[0])
 
 
+def test_zones_are_taken_out_of_collections(slopes: Path, tmp_path: Path, midrib: Runner) -> None:
+    house, others = shapely.box(20, 2, 30, 6), shapely.box(40, 2, 44, 6)
+    nested = shapely.GeometryCollection([shapely.GeometryCollection([house]), others])
+    found = []
+    for name, wkts in (("plain", [house.wkt, others.wkt]), ("nested", [nested.wkt, None])):
+        zones, out = tmp_path / f"zones-{name}.gpkg", tmp_path / f"{name}.gpkg"
+        write(zones, wkts)
+        assert midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones).code == 0
+        found.append(pyogrio.read_dataframe(out, layer="strokes").geometry.to_numpy())
+    assert shapely.equals_exact(*found, tolerance=0.0).all()
+    ink = shapely.union_all(found[1])
+    assert not ink.intersects(house)
+    assert not ink.intersects(others)
+
+
+@pytest.mark.parametrize(
+    ("things", "told"),
+    [
+        (["LINESTRING (30 -9, 30 20)", "POLYGON ((20 2, 30 2, 30 6, 20 2))"], "1 LineString"),
+        (
+            ["GEOMETRYCOLLECTION (POLYGON ((20 2, 30 2, 30 6, 20 2)), POINT (9 9))", "POINT (1 1)"],
+            "2 Point",
+        ),
+        (["LINESTRING (30 -9, 30 20)", "POINT (1 1)"], "1 LineString, 1 Point"),
+    ],
+)
+def test_zones_that_are_no_areas_are_refused(
+    things: list[str | None], told: str, slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    zones, out = tmp_path / "zones.gpkg", tmp_path / "out.gpkg"
+    write(zones, things)
+    outcome = midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones)
+    assert outcome.code == 2
+    sentence = f"holds {told}, expected Polygons and MultiPolygons only"
+    assert sentence in " ".join(outcome.err.split())
+    assert not out.exists()
+
+
 def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runner) -> None:
     source, zones = tmp_path / "in.gpkg", tmp_path / "houses.gpkg"
     gpd.GeoDataFrame(geometry=[shapely.box(20, 2, 30, 6)], crs="EPSG:2177").to_file(zones)
@@ -98,6 +138,20 @@ def test_excluded_areas_in_another_crs_are_refused(tmp_path: Path, midrib: Runne
     outcome = midrib("hatch", source, tmp_path / "a.gpkg", "--top", "top", "--exclude", zones)
     assert outcome.code == 2
     assert "is in another CRS than IN" in outcome.err
+
+
+def test_strokes_that_zones_have_taken_are_counted(
+    slopes: Path, tmp_path: Path, midrib: Runner
+) -> None:
+    told = []
+    for name, zone in (("some", shapely.box(20, 2, 30, 6)), ("none", shapely.box(200, 2, 210, 6))):
+        zones, out = tmp_path / f"zones-{name}.gpkg", tmp_path / f"{name}.gpkg"
+        write(zones, [zone.wkt])
+        outcome = midrib("hatch", slopes, out, "--top", "crest", "--exclude", zones)
+        told.append((len(pyogrio.read_dataframe(out, layer="strokes")), outcome.err))
+    (left, some), (whole, none) = told
+    assert f"note: strokes left out in zones of --exclude: {whole - left}\n" in some
+    assert "in zones" not in none
 
 
 @pytest.mark.parametrize(
@@ -277,6 +331,47 @@ def test_when_nothing_is_drawn_the_reason_is_said(
     assert outcome.code == 1
     assert f": {sentence}" in outcome.err.partition("nothing is drawn: ")[2]
     assert set(layer_names(tmp_path / "out.gpkg")) >= {"outlines", "problems"}
+
+
+@pytest.mark.parametrize("ending", ["gpkg", "pdf", "svg"])
+def test_an_empty_layer_is_no_failure(ending: str, tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / f"out.{ending}"
+    outcome = midrib("hatch", register(tmp_path, [], []), out, "--top", "crest")
+    assert outcome.code == 0
+    assert "note: IN has no slopes\n" in outcome.err
+    is_sheet = ending != "gpkg"
+    assert out.exists() != is_sheet
+    assert ("note: there is nothing to draw, no sheet is written" in outcome.err) == is_sheet
+    assert ("written to" in outcome.err) != is_sheet
+
+
+def test_no_old_sheet_stays_where_nothing_is_drawn(tmp_path: Path, midrib: Runner) -> None:
+    out = tmp_path / "out.svg"
+    out.write_text("old")
+    source = register(tmp_path, [], [])
+    assert midrib("hatch", source, out, "--top", "crest", "--overwrite").code == 0
+    assert not out.exists()
+
+
+def test_a_register_whose_slopes_have_ended_is_told_from_one_without(
+    tmp_path: Path, midrib: Runner
+) -> None:
+    x, y = 6_481_000.0, 5_616_000.0
+    corners = [(x, y), (x + 90, y), (x + 90, y + 9), (x, y + 9)]
+    slope = earthwork("old", ring(corners), corners[0], corners[1])
+    ended = slope.replace("</bdz:BDZ", "<bdz:koniecObiekt>2022</bdz:koniecObiekt></bdz:BDZ", 1)
+    out = tmp_path / "out.gpkg"
+    told = {}
+    for name, features in (("none", []), ("ended", [ended])):
+        path = collection(tmp_path / f"{name}.gml", BDOT_2015, *features)
+        told[name] = midrib("hatch", path, out, "--standard", "pl-2015", "--overwrite")
+    assert (told["none"].code, told["ended"].code) == (0, 1)
+    assert "--history" not in told["none"].err
+    sentence = "nothing is drawn: slopes that have ended: 1; --history draws them"
+    assert sentence in told["ended"].err
+    options = ["--standard", "pl-2015", "--history", "--overwrite"]
+    assert midrib("hatch", path, out, *options).code == 0
+    assert len(pyogrio.read_dataframe(out, layer="strokes")) == 90 / 4.5 - 1
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from ezdxf.filemanagement import new
-from shapely import GeometryCollection, LineString, Point, box
+from shapely import GeometryCollection, LineString, Point, Polygon, box
 
 from midrib.formats.writing import Features, write_layer
 from tests.cli.commands import Runner
@@ -125,6 +125,25 @@ def test_options_with_a_file_of_the_wrong_kind_are_named(tmp_path: Path, midrib:
     assert {run.code for run in (excluded, strokes, table, sheet)} == {2}
 
 
+def test_areas_that_are_none_are_not_told_to_lack_a_top(tmp_path: Path, midrib: Runner) -> None:
+    bow_tie = Polygon([(100, 0), (104, 4), (104, 0), (100, 4)])
+    odd = {
+        "its geometry is nothing, expected a Polygon": None,
+        "its geometry is an empty Polygon, expected a Polygon": Polygon(),
+        "its area is not valid: Self-intersection at (102, 2)": bow_tie,
+        "its geometry is Point, expected a Polygon": Point(50, 0),
+        "its geometry is an empty GeometryCollection, expected a Polygon": GeometryCollection(),
+        "it has no top": box(200, 0, 220, 4),
+    }
+    path = save(tmp_path / "a.gpkg", "slopes", [SLAB, *odd.values()], id=[*"abcdefg"])
+    save(path, "top", [LineString([(0, 4), (20, 4)])])
+    out = tmp_path / "out.gpkg"
+    outcome = midrib("hatch", path, out, "--layer", "slopes", "--top", "top")
+    assert outcome.code == 1
+    for name, reason in zip("bcdefg", odd, strict=True):
+        assert f"refused: {name}: {reason}\n" in outcome.err
+
+
 def test_rows_that_are_no_slopes_are_named_and_the_rest_is_drawn(
     tmp_path: Path, midrib: Runner
 ) -> None:
@@ -167,5 +186,5 @@ def test_a_file_without_slopes_is_drawn_without_any(
     out = tmp_path / f"out.{ending}"
     outcome = midrib("hatch", path, out)
     assert outcome.code == 0
-    assert "note: IN has no slopes" in outcome.err
-    assert out.exists()
+    assert "note: IN has no slopes\n" in outcome.err
+    assert out.exists() == (ending not in {"svg", "pdf"})  # a sheet would be blank

@@ -127,7 +127,10 @@ def test_what_is_no_slope_is_told_and_the_others_go_on(tmp_path: Path) -> None:
     assert reasons["no top"].startswith("it has no top, expected poczatekGorySkarpy and koniecGory")
     assert reasons["no end"].startswith("koniecGorySkarpy is missing")
     assert reasons["off"].startswith("start is 5 off the boundary")
-    assert reasons["crossing"] == "its area is not valid: Self-intersection"
+    where = next(problem.where for problem in problems if problem.id == "crossing")
+    assert where is not None
+    at = f"({where.x:.12g}, {where.y:.12g})"
+    assert reasons["crossing"] == f"its area is not valid: Self-intersection at {at}"
     assert reasons["words"].startswith("the coordinates 'north")
     assert "are not rows of 2 numbers" in reasons["odd"]
     assert reasons["endless"] == "a coordinate is not finite"

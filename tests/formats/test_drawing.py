@@ -82,7 +82,8 @@ def test_nothing_is_left_over_and_nothing_is_stale(ending: str, tmp_path: Path) 
     assert before == {"map"} | others
     empty = Drawing(500.0, POLAND)
     write_drawing(tmp_path / f"map.{ending}", empty)
-    assert {path.stem for path in tmp_path.iterdir()} == {"map"}
+    kept = set() if ending in {"svg", "pdf"} else {"map"}  # a sheet would be blank
+    assert {path.stem for path in tmp_path.iterdir()} == kept
 
 
 def test_a_layer_is_there_only_if_it_has_something() -> None:

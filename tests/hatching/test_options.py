@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from shapely import LineString, Point, Polygon, box
 from shapely.ops import nearest_points
 
-from midrib import hatch, standard
+from midrib import hatch, split, standard
 from midrib.errors import GeometryTypeError, InvalidAreaError, ParameterError
 from midrib.hatching import Rule, add_stroke, delete_stroke, move_stroke
 from midrib.hatching.rule import with_mean_gap
@@ -137,6 +137,8 @@ def test_zones_hide_strokes_and_move_none() -> None:
     assert 0 < np.count_nonzero(~visible) < 4  # short ones end above it
     assert (hatching.on_top == plain.on_top[visible]).all()
     assert (hatching.is_long == plain.is_long[visible]).all()
+    assert plain.n_excluded == 0
+    assert hatching.n_excluded == np.count_nonzero(~visible)
     assert len(hatch(rectangle(), exclude=[zone, box(80, 0, 85, 9)]).strokes) < len(
         hatching.strokes
     )
@@ -302,11 +304,29 @@ def test_zones_that_hide_all_are_told_and_others_are_not() -> None:
     area = rectangle().area
     hidden = hatch(rectangle(), exclude=area)
     assert hidden.strokes.size == 0
+    assert hidden.n_excluded == hatch(rectangle()).strokes.size
     assert [problem.reason for problem in hidden.problems] == [
         "zones of exclude hide every stroke; none is drawn"
     ]
     x_low, y_low, x_high, y_high = area.bounds
     assert not hatch(rectangle(), exclude=box(x_low, y_low, x_high - 20.0, y_high)).problems
+
+
+def test_a_ring_without_its_closed_top_is_told_what_is_missing() -> None:
+    ground = Point(0, 0).buffer(20)
+    around = ground.difference(Point(3, 0).buffer(10))
+    told = [
+        [problem for problem in hatch(strip).problems if "its top is closed" in problem.reason]
+        for strip in (
+            split(around),
+            Strip(LineString(around.interiors[0]), LineString(around.exterior), around),
+            split(box(0, 0, 60, 10).difference(box(28, 4, 31, 6))),  # the others pass the island
+            split(box(0, 0, 60, 10)),
+        )
+    ]
+    assert [len(problems) for problems in told] == [1, 0, 0, 0]
+    assert "midrib.Strip(top, toe, area)" in told[0][0].reason
+    assert told[0][0].where.within(ground.difference(around))
 
 
 @given(scale=st.floats(1e-3, 1e3), factor=st.floats(0.3, 1.0))

@@ -134,8 +134,8 @@ app.command(
     "in the register), kind, standard, stroke (number along the top), is_long, width (of the "
     "slope there) and length. Slopes that are refused are listed and in the layer, or file, "
     "problems, with the reason.\n\n"
-    "Exit code 0: done; 1: some slopes refused, the rest is written, or nothing drawn; 2: wrong "
-    "usage.",
+    "Exit code 0: done, or IN is empty; 1: some slopes refused, the rest is written, or IN has "
+    "objects and none is drawn; 2: wrong usage.",
     epilog="Examples:\n\nmidrib hatch bdot500.gml map.gpkg --standard pl-2015 --scale 500\n\n"
     "midrib hatch bgt.gml map.pdf --standard de-general --scale 1000 --paper A3\n\n"
     "midrib hatch slopes.gpkg map.dxf --top crest:slope_id --symbol wedge",

@@ -28,7 +28,7 @@ def check(
     from midrib import interrupts
     from midrib.cli.findings import Places, drawn_strokes, metres_per_unit, print_findings
     from midrib.cli.report import Report
-    from midrib.formats.slopes import read_slopes
+    from midrib.formats.slopes import count_ended, read_slopes
     from midrib.hatching.checking import check_slopes
 
     report = Report(quiet=quiet)
@@ -36,8 +36,9 @@ def check(
     places.check(overwrite=overwrite)
     told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end, "kind": kind}
     slopes, problems = read_slopes(source, history=history, **told)
-    if not slopes and not history and (ended := read_slopes(source, history=True, **told)[0]):
-        report.say(f"note: slopes that have ended: {len(ended):,}; --history checks them")
+    ended = 0 if slopes or history else count_ended(source, problems, **told)
+    if ended:
+        report.say(f"note: slopes that have ended: {ended:,}; --history checks them")
     report.announce()
     interrupts.start_work()
     crs = slopes[0].crs if slopes else None

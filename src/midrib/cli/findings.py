@@ -72,10 +72,15 @@ class Places(NamedTuple):
         """Write table and figure, each whole or not at all; then sum up."""
         crs = next((slope.crs for slope in slopes), None)
         notes = []
+        is_blank = not slopes and all(finding.where is None for finding in findings)
         if self.out is not None:
             with staged(self.out.parent) as stage:
                 notes = write_rows(stage / self.out.name, features_of(findings, crs))
-        if self.figure is not None:
+        if self.figure is not None and is_blank:
+            notes.append("there is nothing to draw, no figure is written")
+            with staged(self.figure.parent, stale=[self.figure]):
+                pass
+        elif self.figure is not None:
             unit = unit_of(crs)
             with staged(self.figure.parent) as easel:
                 draw_checks(
@@ -88,7 +93,7 @@ class Places(NamedTuple):
             report.say(f"note: {note}")
         report.say(f"slopes: {len(slopes)}; {summary(findings)}")
         for path in (self.out, self.figure):
-            if path is not None:
+            if path is not None and path.exists():
                 report.say(f"written to {path}")
 
 

@@ -11,8 +11,6 @@ from midrib.cli.options import SharedEdges, StartSide
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from shapely import MultiPolygon, Polygon
-
     from midrib.cli.report import Report
     from midrib.formats.drawing.content import Drawing
 
@@ -66,9 +64,10 @@ def hatch(
 ) -> None:
     """Hatch slopes at map scale; draw walls, stairs, conveyors, gantries and water gates."""
     from midrib.cli.report import Report
+    from midrib.cli.zones import zones_in
     from midrib.formats.drawing.slopes import check_standard, draw_slopes, try_out
     from midrib.formats.drawing.write import check_places, write_drawing
-    from midrib.formats.slopes import read_slopes
+    from midrib.formats.slopes import count_ended, read_slopes
 
     values = given(
         symbol=symbol,
@@ -93,9 +92,8 @@ def hatch(
     sources = [source] if exclude is None else [source, exclude]
     check_places(out, sources, overwrite=overwrite, paper=paper)
     check_standard(standard, values, scale)
-    slopes, problems = read_slopes(
-        source, layer=layer, top=top, toe=toe, start=start, end=end, kind=kind, history=history
-    )
+    told = {"layer": layer, "top": top, "toe": toe, "start": start, "end": end, "kind": kind}
+    slopes, problems = read_slopes(source, history=history, **told)
     if exclude is not None:
         options["exclude"] = zones_in(exclude, slopes[0].crs if slopes else None)
     report = Report(quiet=quiet)
@@ -113,9 +111,13 @@ def hatch(
     for note in write_drawing(out, drawing, paper=paper, marks=not no_problems):
         report.say(f"note: {note}")
     sum_up(drawing, out, report)
-    if not slopes and not problems:  # which is no failure: a register may hold none
-        report.say("note: IN has no slopes; those that have ended come with --history")
-        return
+    if not slopes and not problems:
+        ended = 0 if history else count_ended(source, problems, **told)
+        if not ended:  # which is no failure: a register may hold none
+            report.say("note: IN has no slopes")
+            return
+        report.say(f"nothing is drawn: slopes that have ended: {ended:,}; --history draws them")
+        raise typer.Exit(1)
     if not drawing.has_symbols:
         report.say(f"nothing is drawn: {why_nothing(drawing, standard)}")
     if drawing.n_refused or not drawing.has_symbols:
@@ -125,26 +127,6 @@ def hatch(
 def given(**values: Any) -> dict[str, Any]:
     """Values that are given."""
     return {name: value for name, value in values.items() if value is not None}
-
-
-def zones_in(path: "Path", crs: str | None) -> list["Polygon | MultiPolygon"]:
-    """Read the areas of a file, whatever else is in it.
-
-    Raises
-    ------
-    ParameterError
-        If they are in another CRS than the slopes.
-    """
-    from shapely import MultiPolygon, Polygon
-
-    from midrib.formats.contents import choose_layer
-    from midrib.formats.reading import open_layer
-    from midrib.formats.units import check_same_plane
-
-    with open_layer(path, choose_layer(path, None, "--exclude")) as source:
-        check_same_plane(source.crs, crs, f"--exclude {str(path)!r}")
-        features = [geometry for batch in source.batches() for geometry in batch.geometries]
-    return [area for area in features if isinstance(area, Polygon | MultiPolygon)]
 
 
 def why_nothing(drawing: "Drawing", standard: str) -> str:
@@ -175,7 +157,10 @@ def sum_up(drawing: "Drawing", out: "Path", report: "Report") -> None:
         f"{strokes:,} strokes{drawn_too} of {len(drawing.objects):,} objects "
         f"at 1:{drawing.scale:g}, {drawing.n_refused:,} refused; {report.elapsed:.1f} s"
     )
-    report.say(f"written to {out}")
+    if drawing.n_excluded:
+        report.say(f"note: strokes left out in zones of --exclude: {drawing.n_excluded:,}")
+    if out.exists():
+        report.say(f"written to {out}")
     if drawing.objects and unit_of(drawing.crs) is None:
         report.say("note: IN does not say what its unit is, it is taken for the metre")
     listed = [trouble for trouble in drawing.problems if trouble.kind == REFUSED]

@@ -15,11 +15,12 @@ from midrib.errors import InvalidAreaError
 from midrib.formats.tops import Top, joined_tops
 from midrib.hatching.edges import NEAR, Doubt, Edges, edges_along, edges_between, mean_width
 from midrib.hatching.slope import Slope, SlopeError, SlopeProblem
+from midrib.ragged import place_text
 
 if TYPE_CHECKING:
     from midrib.types import Floats
 
-__all__ = ["Gathered", "Top", "check_area", "is_height"]
+__all__ = ["Gathered", "Top", "check_area", "is_height", "place_of"]
 
 ON_EDGE = 0.01  # of the mean width: points this near are on an edge
 UNKNOWN = 0.0  # what registers write for a height that nobody has measured
@@ -166,7 +167,7 @@ def check_area(area: object) -> Polygon:
         kind = getattr(area, "geom_type", "nothing")
         empty = "an empty " * bool(getattr(area, "is_empty", False))
         msg = f"its geometry is {empty}{kind}, expected a Polygon"
-        raise SlopeError(msg)
+        raise SlopeError(msg, place_of(area))
     if not np.isfinite(shapely.get_coordinates(area)).all():
         msg = "its area has a coordinate that is not finite"
         raise SlopeError(msg)
@@ -174,6 +175,13 @@ def check_area(area: object) -> Polygon:
         reason = shapely.is_valid_reason(area)
         place = PLACE.search(reason)
         where = None if place is None else np.array([float(place[1]), float(place[2])])
-        msg = f"its area is not valid: {reason.partition('[')[0]}"
+        at = "" if where is None else f" at {place_text(where)}"
+        msg = f"its area is not valid: {reason.partition('[')[0]}{at}"
         raise SlopeError(msg, where)
     return area
+
+
+def place_of(geometry: object) -> "Floats | None":
+    """First point of a geometry, None if it has none."""
+    points = shapely.get_coordinates(geometry)
+    return points[0] if len(points) else None

@@ -18,7 +18,7 @@ from midrib.formats.contents import (
     listed,
     may_hold_areas,
 )
-from midrib.formats.gathering import Gathered, check_area
+from midrib.formats.gathering import Gathered, check_area, place_of
 from midrib.formats.guides import check_layer, guides_for
 from midrib.formats.pairs import add_pairs
 from midrib.formats.reading import open_layer
@@ -176,21 +176,18 @@ def add_batch(
     rows = batch.attributes.to_pylist() or [{}] * len(batch.geometries)
     key = next((name for name in IDENTIFIERS if name in source.attributes.names), None)
     for row, (said, geometry) in enumerate(zip(rows, batch.geometries, strict=True)):
-        told = batch.unreadable.get(row, tops[row])
+        told = tops[row]
         identifier = str(batch.first + row if key is None else said[key])
         with found.refusing(identifier):
+            if row in batch.unreadable:
+                raise SlopeError(batch.unreadable[row])
+            # First the area: where it is none, or not valid, no top may have been found for it.
+            is_whole = isinstance(geometry, MultiPolygon) and not geometry.is_empty
+            parts = [*geometry.geoms] if is_whole else [check_area(geometry)]
             if not told or isinstance(told, str):
                 msg = str(told or "it has no top")
                 raise SlopeError(msg, place_of(geometry))
-            is_whole = isinstance(geometry, MultiPolygon) and not geometry.is_empty
-            parts = [*geometry.geoms] if is_whole else [check_area(geometry)]
             found.add_sides(identifier, parts, told, maker(source, said))
-
-
-def place_of(geometry: object) -> "Floats | None":
-    """First point of a geometry, None if it has none."""
-    points = shapely.get_coordinates(geometry)
-    return points[0] if len(points) else None
 
 
 def maker(source: "Source", said: dict[str, object]) -> "Callable[[str, Polygon, Edges], Slope]":

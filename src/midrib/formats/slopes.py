@@ -1,5 +1,6 @@
 """Slopes of any register: finds out what a file is and has it read."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,7 +10,7 @@ from midrib.formats.cad import read_cad
 from midrib.formats.layers import Hints, read_layer
 from midrib.hatching.slope import KINDS, Slope, SlopeProblem
 
-__all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "read_slopes"]
+__all__ = ["DRAWING", "XML", "Slope", "SlopeProblem", "count_ended", "read_slopes"]
 
 XML, DRAWING = (".gml", ".xml"), ".dxf"
 
@@ -87,6 +88,16 @@ def read_slopes(
     """
     slopes, problems = read_file(Path(path), Hints(layer, top, toe, start, end), history=history)
     return slopes if kind is None else of_kind(slopes, kind), problems
+
+
+def count_ended(path: str | Path, problems: Sequence[SlopeProblem], **hints: str | None) -> int:
+    """Count what has ended in a register that has no slope of today, refused objects too.
+
+    ``problems`` are those of today's objects, ``hints`` those of ``read_slopes``.
+    """
+    slopes, found = read_slopes(path, history=True, **hints)
+    refused, of_today = (sum(p.kind == "refused" for p in some) for some in (found, problems))
+    return len(slopes) + refused - of_today
 
 
 def read_file(path: Path, hints: Hints, *, history: bool) -> tuple[list[Slope], list[SlopeProblem]]:

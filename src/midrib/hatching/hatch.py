@@ -4,9 +4,18 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+import shapely
 
 from midrib.hatching.asked import STIFFNESS, Asked, check_asked, least_length
-from midrib.hatching.finishing import Finished, Problem, finish, lines_of, zones_of
+from midrib.hatching.finishing import (
+    Finished,
+    Problem,
+    finish,
+    hide,
+    islands_of,
+    lines_of,
+    zones_of,
+)
 from midrib.hatching.laying import Ground
 from midrib.hatching.matching import Drawn, Start, draw_by_matching
 from midrib.hatching.paper import draw_by_paper
@@ -46,6 +55,8 @@ class Hatching:
         The standard's rule with all overrides, in coordinate units.
     station, share : (n,) arrays of float
         Where on the middle line each stroke is, and how much of the whole stroke is drawn.
+    n_excluded : int
+        Number of strokes that zones of ``exclude`` have taken, as asked: they are no problems.
     """
 
     strokes: "NDArray[np.object_]"
@@ -63,6 +74,7 @@ class Hatching:
     share: "Floats"
     ground: Ground | None = field(repr=False, default=None)  # for editing
     zones: Any = field(repr=False, default=None)  # that no stroke may enter
+    n_excluded: int = 0
 
     def __repr__(self) -> str:
         """Show what there is of it."""
@@ -145,7 +157,8 @@ def hatch(
         Draw whole strokes on the straight ends of the slope too, where it has such ends; others
         whose ends would be nearer to theirs than 0.3 gaps give way.
     exclude : Polygon, MultiPolygon or sequence of them, optional
-        Zones that no stroke may enter; the others stay where they are.
+        Zones that no stroke may enter: those that would are left out, as asked, which is no
+        problem unless none is left; ``n_excluded`` counts them. The others stay where they are.
     stiffness : float, default 0.9
         Over how many lengths of stroke directions are evened out. More turns slower at corners
         and is calmer under noise; less keeps strokes nearer to the normals of the edges.
@@ -157,7 +170,7 @@ def hatch(
     -------
     Hatching
         ``strokes``, ``is_long``, ``width`` and more; ``problems`` names each place where a stroke
-        had to be left out or shortened.
+        had to be left out or shortened, zones apart.
 
     Raises
     ------
@@ -216,11 +229,30 @@ def hatch(
         share = float(kind == "mean") if top_share is None else top_share
         drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness, share)
     curves = None if where is None else where.curves
-    finished = finish(drawn, ground, least, first, zones, strip, curves, offset)
+    finished = finish(drawn, ground, least, first, None, strip, curves, offset)
+    finished.problems.extend(seems_closed(drawn, strip))
+    n_placed = int(np.count_nonzero(finished.kept))
+    if zones is not None:
+        hide(drawn, finished.kept, finished.share, zones, finished.problems)
     made = assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )
-    return replace(made, zones=zones)
+    return replace(made, zones=zones, n_excluded=n_placed - made.strokes.size)
+
+
+def seems_closed(drawn: Drawn, strip: Strip) -> list[Problem]:
+    """Tell of a slope with ends whose strokes all meet an island: it may run all round that."""
+    islands = [] if strip.is_closed else islands_of(strip)
+    chords = lines_of(drawn.on_top, drawn.on_toe, np.ones(drawn.kept.size))[drawn.kept]
+    if not islands or not chords.size:
+        return []
+    if not shapely.intersects(chords, shapely.union_all(islands)).all():
+        return []
+    reason = (
+        "every stroke meets an island; if the slope runs all round it, its top is closed, expected "
+        "midrib.Strip(top, toe, area) with the island's edge as top or toe"
+    )
+    return [Problem(max(islands, key=lambda island: island.area).representative_point(), reason)]
 
 
 def assemble(

@@ -48,6 +48,7 @@ class Drawn:
     width: "Floats | None" = None  # of the object at each stroke, from top to toe
     attributes: dict[str, object] = field(default_factory=dict)  # what its register says of it
     relief: "Relief | None" = None  # its heights, if both edges have them all along
+    n_excluded: int = 0  # strokes that zones have taken
 
 
 class Trouble(NamedTuple):
@@ -96,6 +97,16 @@ class Drawing:
     def n_refused(self) -> int:
         """Number of objects that should have been drawn and are not."""
         return len({trouble.id for trouble in self.problems if trouble.kind == REFUSED})
+
+    @property
+    def n_excluded(self) -> int:
+        """Number of strokes that zones have taken."""
+        return sum(drawn.n_excluded for drawn in self.objects)
+
+    @property
+    def is_blank(self) -> bool:
+        """Whether there is nothing to see: no object, and no problem with a place."""
+        return not self.objects and all(trouble.where is None for trouble in self.problems)
 
     @property
     def has_symbols(self) -> bool:

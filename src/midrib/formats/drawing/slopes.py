@@ -113,7 +113,16 @@ def add_slope(
         return
     is_long, width = (None, None) if strokes is None else (strokes.is_long, strokes.width)
     relief = relief_of(slope.top, slope.toe)
-    drawn = Drawn(slope.id, slope.kind, symbols, is_long, width, slope.attributes, relief)
+    drawn = Drawn(
+        slope.id,
+        slope.kind,
+        symbols,
+        is_long,
+        width,
+        slope.attributes,
+        relief,
+        n_excluded=0 if strokes is None else strokes.n_excluded,
+    )
     drawing.objects.append(drawn)
     drawing.problems += [Trouble(slope.id, d.reason, d.where, d.check) for d in doubts(slope)]
     for problem in [] if strokes is None else strokes.problems:

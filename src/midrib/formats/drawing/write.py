@@ -100,7 +100,8 @@ def write_drawing(
     Returns
     -------
     list of str
-        What the format could not keep; how many pages a sheet takes, if several.
+        What the format could not keep; how many pages a sheet takes, if several; that no sheet is
+        written, for want of anything to draw.
 
     Raises
     ------
@@ -111,11 +112,14 @@ def write_drawing(
     """
     path = Path(path)
     places, ending = places_of(path), path.suffix.lower()
-    with staged(path.parent, stale=places[1:]) as stage:
+    shown = drawing if marks else replace(drawing, problems=[])
+    is_blank_sheet = ending in SHEETS and shown.is_blank
+    with staged(path.parent, stale=places if is_blank_sheet else places[1:]) as stage:
+        if is_blank_sheet:
+            return ["there is nothing to draw, no sheet is written"]
         new = stage / path.name
         if ending not in (*SHEETS, CAD, CARTOGRAPHIC):
             return write_layers(new, drawing)
-        shown = drawing if marks else replace(drawing, problems=[])
         if ending in SHEETS:
             return write_sheet(new, shown, paper)
         (write_dxf if ending == CAD else write_cartographic)(new, shown)
