@@ -12,6 +12,7 @@ from pyarrow import csv
 
 from midrib import tower_axis
 from midrib.formats.contents import layer_names
+from midrib.towers import Scan, Tower
 from tests.cli.commands import Runner
 from tests.formats.layers import read_all
 from tests.towers.scans import CONE, dirty
@@ -52,7 +53,8 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert layers == {"MIDRIB_AXIS": 1, "MIDRIB_LEVELS": n, "MIDRIB_HEIGHTS": 2 * len(named)}
     assert set(named) <= {f"{z:.2f}" for z in table["z"].to_pylist()}
     assert len(named) > 1
-    assert set(layer_names(places[3])) == {"axis", "levels"}
+    assert set(layer_names(places[3])) == {"axis", "levels", "kinks", "offsets"}
+    assert [len(read_all(places[3], name)[2]) for name in ("kinks", "offsets")] == [0, 0]
     _, attributes, points = read_all(places[4])
     assert len(points) == table.num_rows
     assert shapely.get_z(points).tolist() == attributes["z"].to_pylist()
@@ -72,6 +74,23 @@ def test_files_do_not_bridge_what_was_not_seen(midrib: Runner, tmp_path: Path) -
         assert len(found) == 2
         rises = np.concatenate([np.diff(np.array(line)[:, 2]) for line in found])
         assert rises == pytest.approx(0.5)
+
+
+def test_kinks_and_offsets_are_layers_of_points_on_the_axis(midrib: Runner, tmp_path: Path) -> None:
+    tower = Tower(60.0, 2.5, 1.5, kink=4.0, kink_spacing=40.0, offset=0.03, offset_height=20.2)
+    points = Scan(tower, count=100_000, noise=(0.002, 0.004), seed=5).points()
+    np.save(tmp_path / "a.npy", points)
+    midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.gpkg")
+    found = tower_axis(points)
+    for name, heights in (("kinks", [40.0]), ("offsets", [20.2])):
+        _, attributes, places = read_all(tmp_path / "a.gpkg", name)
+        told = [tuple(row.values()) for row in attributes.to_pylist()]
+        assert told == [tuple(one) for one in getattr(found, name)]
+        assert attributes["z"].to_pylist() == pytest.approx(heights, abs=1.0)
+        z = shapely.get_z(places)
+        assert z.tolist() == attributes["z"].to_pylist()
+        # In the middle of a step at the most, beside a smooth axis.
+        assert shapely.get_coordinates(places) == pytest.approx(tower.axis(z), abs=0.03)
 
 
 def test_pdf_has_all_pages(scan: Path, midrib: Runner, tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from midrib.formats.drawing.axes import write_axis_dxf
 from midrib.formats.endings import format_of
 from midrib.formats.units import METRES, length_in
 from midrib.formats.writing import Features, check_free, staged, write_layer
+from midrib.towers.kinks import Kink, Offset
 from midrib.towers.pipeline import Options
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from midrib.towers.records import TowerAxis
     from midrib.towers.tolerance import Tolerance
 
-__all__ = ["Places", "chosen_options", "features_of"]
+__all__ = ["Places", "chosen_options"]
 
 IN_METRES = '{"coordinate_system": {"axis": [{"unit": "metre"}]}}'
 
@@ -83,8 +84,8 @@ class Places(NamedTuple):
 
 
 def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
-    """Write levels and axis: a plain table as CSV, layers of points and a line in other formats."""
-    levels, line = features_of(axis)
+    """Write levels, alone where a format has no layers, such as CSV; else axis and breaks too."""
+    levels = levels_of(axis)
     if path.suffix.lower() == ".csv":
         return write_rows(path, levels)
     target = format_of(path)
@@ -93,17 +94,22 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
         return []
     if not target.has_layers:
         return write_layer(path, levels)
-    return write_layer(path, line) + write_layer(path, levels)
+    breaks = breaks_of(axis, "kinks", Kink), breaks_of(axis, "offsets", Offset)
+    return [note for layer in (line_of(axis), levels, *breaks) for note in write_layer(path, layer)]
 
 
-def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
-    """Layers ``levels`` (points) and ``axis`` (one line, of several parts where it is broken)."""
+def levels_of(axis: "TowerAxis") -> Features:
+    """Layer ``levels``: a point for each, none where it has no centre."""
     names = axis.levels.dtype.names or ()
     columns = {name: pa.array(axis.levels[name], from_pandas=True) for name in names}
     points = np.empty(len(axis.levels), dtype=object)
     there = axis.is_answered
     points[there] = shapely.points(axis.points)
-    levels = Features("levels", pa.table(columns), points, "geom", "Point Z", axis.crs)
+    return Features("levels", pa.table(columns), points, "geom", "Point Z", axis.crs)
+
+
+def line_of(axis: "TowerAxis") -> Features:
+    """Layer ``axis``: one line, of several parts where it is broken."""
     line = np.empty(1, dtype=object)
     line[0] = axis.line
     s = axis.summary
@@ -112,7 +118,20 @@ def features_of(axis: "TowerAxis") -> tuple[Features, Features]:
         "sections": pa.array([axis.shape.text]),
         **{name: pa.array([getattr(s, name)], from_pandas=True) for name in s._fields},
     }
-    return levels, Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
+    return Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
+
+
+def breaks_of(axis: "TowerAxis", name: str, kind: "type[Kink | Offset]") -> Features:
+    """Layer ``kinks`` or ``offsets``: points on the axis, none where it has no centre at all.
+
+    The columns are those of the records, so lengths are in coordinate units and turns in mm per m.
+    """
+    rows = np.array(getattr(axis, name), dtype=np.float64).reshape(-1, len(kind._fields))
+    columns = dict(zip(kind._fields, map(pa.array, rows.T), strict=True))
+    points = np.empty(len(rows), dtype=object)
+    if len(axis.points):
+        points[:] = shapely.points(axis.at(rows[:, 0]))
+    return Features(name, pa.table(columns), points, "geom", "Point Z", axis.crs)
 
 
 def chosen_options(

@@ -111,6 +111,11 @@ class TowerAxis:
         there = self.levels[self.is_answered]
         return np.column_stack([there["x"], there["y"], there["z"]])
 
+    def at(self, z: "Floats") -> "Floats":
+        """Points (m, 3) of the axis at heights, in line between the levels next to them."""
+        x, y, heights = self.points.T
+        return np.column_stack([np.interp(z, heights, x), np.interp(z, heights, y), z])
+
     @cached_property
     def breaks(self) -> "Ints":
         """Rows of ``points`` at which the axis begins anew: above missing levels and offsets.
