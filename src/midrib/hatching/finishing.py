@@ -15,7 +15,7 @@ from midrib.hatching.rule import Rule
 from midrib.strip import Strip
 from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Finished", "Problem", "finish", "islands_of", "lines_of", "zones_of"]
+__all__ = ["Finished", "Problem", "finish", "hide", "islands_of", "lines_of", "zones_of"]
 
 TINY, LARGEST = 2.0**-1000, 2.0**1000
 LEAST_FOOT = 0.25  # of a gap: ends of strokes are not nearer to each other
@@ -48,16 +48,15 @@ def finish(
     rule: Rule,
     least: float,
     first: str | None,
-    zones: Any,
     strip: Strip,
     curves: Curves | None,
     offset: float,
 ) -> Finished:
     """Decide what is drawn.
 
-    The pattern counts the strokes that have a place, whether a zone hides them or not. With curves,
-    the middle line and the edges, strokes are kept apart, and where edges are bare or a bound is
-    exceeded is told.
+    The pattern counts the strokes that have a place, whether a zone hides them afterwards or not.
+    With curves, the middle line and the edges, strokes are kept apart, and where edges are bare or
+    a bound is exceeded is told.
     """
     problems = [Problem(Point(p), drawn.reason) for p in drawn.middle[~drawn.kept]]
     if not drawn.kept.size:
@@ -91,8 +90,6 @@ def finish(
     meet_islands(drawn, kept, is_long, share, LEAST_FOOT * gap, least, strip, problems)
     if curves is not None:
         problems += beyond_bounds(drawn, kept, is_long, share, gap, curves, offset, least)
-    if zones is not None:
-        hide(drawn, kept, share, zones, problems)
     return Finished(kept, is_long, share, problems)
 
 
@@ -103,17 +100,17 @@ def too_short(strip: Strip, rule: Rule, offset: float) -> str:
     return f"the slope is shorter than a gap, {rule.least_gap:.3g} at least; none is drawn"
 
 
-def hide(
-    drawn: Drawn, kept: Bools, share: Floats, zones: Any, problems: list[Problem]
-) -> None:  # fmt: skip
-    """Leave out the strokes that meet a zone, which is no problem unless none is left."""
-    rows = np.flatnonzero(kept)
-    lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], share[rows])
+def hide(drawn: Drawn, finished: Finished, zones: Any) -> int:
+    """Leave out the strokes that meet a zone, which is no problem unless none is left; how many."""
+    rows = np.flatnonzero(finished.kept)
+    lines = lines_of(drawn.on_top[rows], drawn.on_toe[rows], finished.share[rows])
     is_hidden = shapely.intersects(lines, zones)
-    kept[rows[is_hidden]] = False
+    finished.kept[rows[is_hidden]] = False
     if rows.size and is_hidden.all():
         reason = "zones of exclude hide every stroke; none is drawn"
-        problems.append(Problem(Point(drawn.middle[rows[rows.size // 2]]), reason))
+        middle = Point(drawn.middle[rows[rows.size // 2]])
+        finished.problems.append(Problem(middle, reason))
+    return int(np.count_nonzero(is_hidden))
 
 
 def pattern_from(pattern: str, first: str | None) -> str:

@@ -229,15 +229,13 @@ def hatch(
         share = float(kind == "mean") if top_share is None else top_share
         drawn, where = draw_by_matching(strip, ground, start, offset, end_strokes, stiffness, share)
     curves = None if where is None else where.curves
-    finished = finish(drawn, ground, least, first, None, strip, curves, offset)
+    finished = finish(drawn, ground, least, first, strip, curves, offset)
     finished.problems.extend(seems_closed(drawn, strip))
-    n_placed = int(np.count_nonzero(finished.kept))
-    if zones is not None:
-        hide(drawn, finished.kept, finished.share, zones, finished.problems)
+    n_excluded = 0 if zones is None else hide(drawn, finished, zones)
     made = assemble(
         drawn, finished, where, strip=strip, standard=standard, scale=scale, rule=ground
     )
-    return replace(made, zones=zones, n_excluded=n_placed - made.strokes.size)
+    return replace(made, zones=zones, n_excluded=n_excluded)
 
 
 def seems_closed(drawn: Drawn, strip: Strip) -> list[Problem]:
