@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from midrib.figures.paper import FONT, POINT, TEXT
+from midrib.figures.tower_labels import label_curve
 from midrib.towers.tolerance import verdicts
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from midrib.towers.records import TowerAxis
     from midrib.towers.tolerance import Tolerance
-    from midrib.types import Floats, Ints
+    from midrib.types import Floats
 
 __all__ = ["plot_deviation", "plot_plan", "plot_radius", "plot_section", "plot_shell"]
 
@@ -26,6 +27,7 @@ NORMAL = 1.96
 JUDGED = {"beyond": "#a3201d", "undecided": "#f0a63c", "within": "#cfe3c4"}
 BREAKS = {"kink": 5.0, "offset": 6.5}  # points: marks, which differ in shape and size
 STRIP = 0.025  # of a plot's width: the strip of verdicts along its left side
+MOST_LABELS = 60
 LABELS = 0.16  # of the plan's extent: as far apart as labels are
 WALL = 0.25  # of the radius on paper: how far the largest residuals of a section reach
 RESIDUAL_SHARE = 98.0  # percent of the residuals that the colours of the unrolled shell tell apart
@@ -79,6 +81,7 @@ def plot_deviation(
     reach = axes.get_xlim()
     widest = max(abs(reach[0]), abs(reach[1]), 1.0)
     axes.set_xlim(-widest, widest)
+    axes.locator_params(axis="x", nbins=8)  # numbers of more places would touch
     compass = {"x": "x (east)", "y": "y (north)"}[name]
     times = exaggeration(axes)
     finish(axes, f"deviation in {compass}, mm, {times:.0f} times exaggerated", "height, m")
@@ -132,11 +135,6 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
                   ls=(0, (4.0, 2.0)))  # fmt: skip
         extent = max(extent, 2.0 * radius)
         axes.set_title("dashed: tolerance at the top", fontsize=FONT - 1.0, color=TEXT, pad=2.0)
-    chosen = apart(x, y, np.flatnonzero(known), LABELS * extent)
-    axes.plot(x[chosen], y[chosen], "o", color=LINE, ms=2.6, mew=0.0)
-    for i in chosen:
-        axes.annotate(f"{z[i]:.0f} m", (x[i], y[i]), xytext=(3, 2), textcoords="offset points",
-                      fontsize=FONT - 1.5, color=TEXT)  # fmt: skip
     plot_breaks(axes, axis, (x, y))
     axes.axhline(0.0, color=TEXT, lw=0.4)
     axes.axvline(0.0, color=TEXT, lw=0.4)
@@ -144,15 +142,13 @@ def plot_plan(axes: "Axes", axis: "TowerAxis", tolerance: "Tolerance | None") ->
     axes.margins(0.12)
     axes.locator_params(nbins=6)  # numbers of more places would touch
     finish(axes, "x (east), mm", "y (north), mm")
-
-
-def apart(x: "Floats", y: "Floats", rows: "Ints", least: float) -> "Ints":
-    """Rows of points that are at least so far apart that their labels do not lie on each other."""
-    kept: list[int] = []
-    for i in rows[:: max(1, rows.size // 60)]:
-        if all(np.hypot(x[i] - x[k], y[i] - y[k]) > least for k in kept):
-            kept.append(int(i))
-    return np.array(kept, dtype=np.intp)
+    rows = np.flatnonzero(known)
+    if rows.size:
+        rows = np.unique(np.append(rows[:: max(1, rows.size // MOST_LABELS)], rows[-1]))
+        rows = np.roll(rows, 1)  # top and base have the first choice
+        texts = [f"{height:.0f} m" for height in z[rows]]
+        chosen = label_curve(axes, np.column_stack([x, y]), rows, texts, LABELS * extent)
+        axes.plot(x[chosen], y[chosen], "o", color=LINE, ms=2.6, mew=0.0)
 
 
 def plot_radius(axes: "Axes", axis: "TowerAxis") -> None:
