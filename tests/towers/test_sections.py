@@ -1,14 +1,16 @@
 """Planar sections: towers, tunnels, pipes; and how walls are thinned."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 import shapely
 
 from midrib import minimal_radii
 from midrib.errors import ParameterError
-from midrib.towers.sections import section
+from midrib.towers.sections import Section, section
 from midrib.towers.thinning import average_depth, moving_least_squares
-from midrib.types import Floats
+from midrib.types import Bools, Floats
 from tests.towers.scans import CONE
 
 
@@ -75,3 +77,35 @@ def test_average_depth_takes_every_point_once() -> None:
     points = np.array([[0.0, 0.0], [0.0, 0.004], [0.002, 0.008], [0.0, 0.02], [0.0, 0.5]])
     thinned = average_depth(points, 0.01)
     assert thinned == pytest.approx(np.array([[0.002 / 3, 0.004], [0.0, 0.02], [0.0, 0.5]]))
+
+
+def pipe(keep: Callable[[Floats, Floats], Bools]) -> Floats:
+    """Points of a pipe along x, those that are kept of x and y."""
+    x, angle = np.random.default_rng(1).uniform(0, [[20.0], [2 * np.pi]], (2, 60_000))
+    points = np.column_stack([x, 0.5 * np.cos(angle), 3.0 + 0.5 * np.sin(angle)])
+    return points[keep(points[:, 0], points[:, 1])]
+
+
+def cut_of(points: Floats) -> Section:
+    """Level section of the pipe."""
+    return section(points, (0, 0, 3), (0, 0, 1), thickness=0.05, interval=0.25)
+
+
+@pytest.mark.parametrize("length", [1.0, 2.0, 4.0])
+def test_a_wall_with_a_gap_is_refused_with_the_place(length: float) -> None:
+    points = pipe(lambda x, y: (x < 8.0) | (x > 8.0 + length) | (y < 0.0))
+    with pytest.raises(ParameterError, match=r"from (7\.8|7\.9|8\.0|8\.1|8\.2).* along it"):
+        cut_of(points)
+
+
+def test_what_stands_between_the_walls_is_refused_with_the_place() -> None:
+    clutter = np.random.default_rng(2).uniform([8.0, -0.3, 3.0], [12.0, 0.3, 3.0], (1500, 3))
+    with pytest.raises(ParameterError, match="no two walls with nothing between them"):
+        cut_of(np.vstack([pipe(lambda x, _: x > -1.0), clutter]))
+
+
+def test_short_gaps_and_strays_are_passed_over() -> None:
+    strays = np.random.default_rng(3).uniform([0.0, -0.5, 3.0], [20.0, 0.5, 3.0], (15, 3))
+    cut = cut_of(np.vstack([pipe(lambda x, y: (abs(x - 8.0) > 0.2) | (y < 0.0)), strays]))
+    curve = minimal_radii(cut.strip, ends="caps", centring="symmetric")
+    assert np.abs(np.array(cut.in_space(curve.line).coords)[:, 1]).max() < 0.003

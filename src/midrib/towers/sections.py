@@ -24,13 +24,15 @@ from midrib.towers.thinning import Thinning, thinned_wall
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
-    from midrib.types import Bools, Floats
+    from midrib.types import Bools, Floats, Ints
 
 __all__ = ["Section", "section"]
 
 LEAST = 20  # points of a section, or of a wall
 BINS = 100  # along the object, in which the middle is looked for
 SMOOTH = 7  # bins over which the middle is a running median
+BROKEN = 0.25  # of the usual gap between the walls: with less there are no two of them
+LONG = 2.0  # intervals: walls are carried on over shorter gaps
 STRAY = 0.01  # share of the points of a bin on either side that may be strays
 
 
@@ -94,7 +96,8 @@ def section(
     Raises
     ------
     ParameterError
-        If a length is not above 0, the normal is none, or there are no two walls.
+        If a length is not above 0, the normal is none, or there are no two walls, somewhere over
+        more than two intervals.
 
     Notes
     -----
@@ -129,6 +132,7 @@ def section(
     v_axis = direction(v_axis - (v_axis @ n) * n, "along, in the plane,")
     u_axis = np.cross(v_axis, n)
     points = np.column_stack([(flat - origin) @ u_axis, (flat - origin) @ v_axis])
+    check_walls(points, interval)
     is_main = below_middle(points)
     walls = []
     for rows in (is_main, ~is_main):
@@ -179,22 +183,61 @@ def longest(points: "Floats", normal: "Floats") -> "Floats":
     return best if best[np.argmax(np.abs(best))] > 0.0 else -best
 
 
-def below_middle(points: "Floats") -> "Bools":
-    """Which points (n, 2) have a lesser u than the middle at their v."""
+def in_bins(points: "Floats") -> "tuple[Ints, Floats]":
+    """Bins (n,) along the object that points (n, 2) are in, and the bins' ends."""
     low, high = np.percentile(points[:, 1], [0.5, 99.5])
     n_bins = int(np.clip(len(points) / LEAST, 1, BINS))
     place = np.clip((points[:, 1] - low) / max(high - low, 1e-300) * n_bins, 0, n_bins - 1)
-    place = place.astype(np.intp)
-    middle = np.full(n_bins, np.nan)
-    for b in range(n_bins):
+    return place.astype(np.intp), np.linspace(low, high, n_bins + 1)
+
+
+def running_median(values: "Floats", size: int) -> "Floats":
+    """Median of every value and its neighbours; ``size`` is odd."""
+    padded = np.pad(values, size // 2, mode="edge")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, size)
+    medians: Floats = np.median(windows, axis=1)
+    return medians
+
+
+def check_walls(points: "Floats", interval: float) -> None:
+    """Refuse sections that are empty, one-sided or full somewhere: their middle is no axis.
+
+    Between two walls there is a gap in u. It is gone where one of them is, and where something
+    stands between them.
+
+    Raises
+    ------
+    ParameterError
+        If the gap is gone for longer than walls are carried on over it.
+    """
+    place, ends = in_bins(points)
+    gap = np.zeros(ends.size - 1)
+    for b in np.unique(place):
+        u = np.sort(points[place == b, 0])
+        gap[b] = np.diff(u).max(initial=0.0)
+    usual = running_median(gap, gap.size // 4 * 2 + 1)
+    broken = np.flatnonzero(gap < BROKEN * usual)
+    runs = np.split(broken, np.flatnonzero(np.diff(broken) > 1) + 1)
+    for run in runs if broken.size else []:
+        first, last = float(ends[run[0]]), float(ends[run[-1] + 1])
+        if last - first > LONG * interval:
+            msg = (
+                f"the section has no two walls with nothing between them from {first:,.2f} to "
+                f"{last:,.2f} along it, seen from point: expected both, or a cut in two parts"
+            )
+            raise ParameterError(msg)
+
+
+def below_middle(points: "Floats") -> "Bools":
+    """Which points (n, 2) have a lesser u than the middle at their v."""
+    place, ends = in_bins(points)
+    middle = np.full(ends.size - 1, np.nan)
+    for b in range(middle.size):
         u = np.sort(points[place == b, 0])
         if u.size >= 4:
             cut = int(STRAY * u.size)
             middle[b] = (u[cut] + u[u.size - 1 - cut]) / 2.0
     known = np.flatnonzero(np.isfinite(middle))
-    middle = np.interp(np.arange(n_bins), known, middle[known])
-    half = SMOOTH // 2
-    padded = np.pad(middle, half, mode="edge")
-    windows = np.lib.stride_tricks.sliding_window_view(padded, SMOOTH)
-    below: Bools = points[:, 0] < np.median(windows, axis=1)[place]
+    middle = np.interp(np.arange(middle.size), known, middle[known])
+    below: Bools = points[:, 0] < running_median(middle, SMOOTH)[place]
     return below
