@@ -112,5 +112,5 @@ def draw_sections(axis: "TowerAxis", sheet: Sheet | None = None) -> "Figure":
     for i, index in enumerate(chosen):
         row, column = divmod(i, SECTION_COLUMNS)
         low = SECTIONS_HEIGHT - (row + 1) * height
-        plot_section(sheet.place(column * width, low, width, height - 5.0), axis, int(index))
+        plot_section(sheet.place(column * width, low + 4.0, width, height - 9.0), axis, int(index))
     return sheet.figure
