@@ -57,6 +57,26 @@ def test_offset_and_ends() -> None:
     assert letters(end_strokes=True) == ("LS" * 11)[:21]
 
 
+@pytest.mark.parametrize("is_turned", [False, True])
+def test_sides_that_the_toe_holds_have_strokes_too(is_turned: bool) -> None:
+    top = LineString([(0, 10), (100, 10)])
+    toe = LineString([(0, 10), (-2, 0), (104, 0), (100, 10)])
+    edges = (shapely.reverse(edge) if is_turned else edge for edge in (top, toe))
+    hatching = hatch(Strip(*edges), end_strokes=True)
+    ends = sorted(
+        zip(hatching.on_top[[0, -1]].tolist(), hatching.on_toe[[0, -1]].tolist(), strict=True)
+    )
+    assert ends == [([0, 10], [-2, 0]), ([100, 10], [104, 0])]
+    assert hatching.on_toe[1:-1, 1] == pytest.approx(0.0)
+
+
+def test_a_side_that_is_bent_has_no_stroke() -> None:
+    toe = LineString([(0, 10), (1, 5), (0, 0), (100, 0), (100, 10)])
+    hatching = hatch(Strip(LineString([(0, 10), (100, 10)]), toe), end_strokes=True)
+    assert hatching.on_top[:, 0].min() > 1.0
+    assert hatching.on_top[:, 0].max() == 100.0
+
+
 @pytest.mark.parametrize("offset", [0.01, 0.2, 0.29])
 def test_strokes_give_way_to_those_on_the_ends(offset: float) -> None:
     plain = hatch(rectangle(), end_strokes=True, offset=1.0)

@@ -154,8 +154,9 @@ def hatch(
     first : {"long", "short"}, optional
         What the first stroke is; that of the pattern unless given.
     end_strokes : bool, default False
-        Draw whole strokes on the straight ends of the slope too, where it has such ends; others
-        whose ends would be nearer to theirs than 0.3 gaps give way.
+        Draw whole strokes on the straight ends of the slope too, where it has such ends: caps
+        between top and toe, or sides that the toe holds. Others that end on a side, or whose ends
+        would be nearer to theirs than 0.3 gaps, give way.
     exclude : Polygon, MultiPolygon or sequence of them, optional
         Zones that no stroke may enter: those that would are left out, as asked, which is no
         problem unless none is left; ``n_excluded`` counts them. The others stay where they are.

@@ -20,6 +20,7 @@ __all__ = ["Drawn", "Start", "draw_by_matching", "drawn_of"]
 
 Start: TypeAlias = Literal["left", "right", "first", "last"]
 MOST_STROKES = 1_000_000  # the ladder has eight rungs for each, and holds 2^24
+STRAIGHT = 1e-9  # share of its length by which a side may be longer than its chord
 UNMATCHED = "no straight stroke from top to toe goes on along both edges here; one is left out"
 
 
@@ -161,16 +162,23 @@ def reversed_(drawn: Drawn) -> Drawn:
 
 
 def with_ends(drawn: Drawn, middle: Middle, rule: Rule) -> Drawn:
-    """Add a stroke on each end of the slope that is a straight cap; what is too near gives way."""
+    """Add a stroke on each end of the slope that is straight; what is too near gives way.
+
+    An end is a cap between top and toe, or a side that the toe holds too.
+    """
     mesh, top, toe = middle.mesh, middle.top, middle.toe
+    last = len(toe.vertex) - 1
     for end, station in ((0, 0.0), (-1, middle.length)):
-        a, b = top.vertex[end], toe.vertex[end]
-        if a == b:
-            continue
+        at = last - middle.sides[1] if end else middle.sides[0]
+        a, b = top.vertex[end], toe.vertex[at]
         on_top, on_toe = np.array([mesh.x[a], mesh.y[a]]), np.array([mesh.x[b], mesh.y[b]])
-        feet = np.array([top.arc[end], toe.arc[end]])
-        (gap,) = rule.gaps(np.array([np.hypot(*(on_toe - on_top))]))
+        length = float(np.hypot(*(on_toe - on_top)))
+        if a == b or abs(toe.arc[at] - toe.arc[end]) > (1.0 + STRAIGHT) * length:
+            continue
+        feet = np.array([top.arc[end], toe.arc[at]])
+        (gap,) = rule.gaps(np.array([length]))
         is_near = (abs(drawn.feet - feet) < LEAST_FOOT * gap).any(axis=1)
+        is_near |= drawn.feet[:, 1] > feet[1] if end else drawn.feet[:, 1] < feet[1]
         drawn = drawn.of_rows(np.flatnonzero(~is_near))
         place = 0 if end == 0 else len(drawn.station)
         drawn = Drawn(
@@ -179,7 +187,7 @@ def with_ends(drawn: Drawn, middle: Middle, rule: Rule) -> Drawn:
             np.insert(drawn.on_top, place, on_top, axis=0),
             np.insert(drawn.on_toe, place, on_toe, axis=0),
             np.insert(drawn.feet, place, feet, axis=0),
-            np.insert(drawn.local, place, np.hypot(*(on_toe - on_top))),
+            np.insert(drawn.local, place, length),
             np.insert(drawn.kept, place, True),
             drawn.reason,
         )

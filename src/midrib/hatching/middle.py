@@ -41,6 +41,7 @@ class Middle(NamedTuple):
     toe: Chain
     line: Floats  # (m, 2), of a closed slope closed
     is_turned: bool  # whether the caller's top runs the other way
+    sides: tuple[int, int] = (0, 0)  # segments of the toe that are sides, at its start and end
 
     @property
     def is_closed(self) -> bool:
@@ -76,8 +77,10 @@ def middle_of(strip: Strip) -> Middle:
         return ring._replace(line=line_around(plain) + corner)
     layout, is_turned = lay_out_slope(strip)
     same, _ = (layout, is_turned) if plain is strip else lay_out_slope(plain)
-    _, path = Construction(centring="centred", tolerance=CENTRED, ends="caps").of(capped(same))
-    return Middle(layout.mesh, layout.main, layout.auxiliary, path.points + corner, is_turned)
+    caps = capped(same, sides_of(same))
+    _, path = Construction(centring="centred", tolerance=CENTRED, ends="caps").of(caps)
+    line = path.points + corner
+    return Middle(layout.mesh, layout.main, layout.auxiliary, line, is_turned, sides_of(layout))
 
 
 def on_grid(strip: Strip) -> tuple[Strip, Floats]:
@@ -130,21 +133,12 @@ def filled_layout(strip: Strip) -> Layout:
     return strip.layout
 
 
-def capped(layout: Layout) -> Layout:
-    """Layout in which the sides of a slope are caps, where the toe holds them too.
-
-    Registers often name the top only, and all else is toe. If the toe leaves the end of the top at
-    60 degrees or more and then turns to run along it, at less, what lies before the turn is a side:
-    the middle line ends halfway along it, not in the corner.
-    """
+def capped(layout: Layout, sides: tuple[int, int]) -> Layout:
+    """Layout in which the sides of a slope are caps: the middle line ends halfway along them."""
     toe, ends = layout.auxiliary, layout.middle
     point, at = ends.point.copy(), ends.at.copy()
-    cut = [0, 0]
-    for end in (0, 1):
-        top, edge = layout.main, toe
-        if end:
-            top, edge = backwards(top), backwards(edge)
-        cut[end] = count = sides_of(layout, top, edge)
+    for end, count in enumerate(sides):
+        edge = backwards(toe) if end else toe
         if count:
             half = edge.arc[count] / 2.0
             k = int(np.searchsorted(edge.arc, half, side="right")) - 1
@@ -152,9 +146,9 @@ def capped(layout: Layout) -> Layout:
             corners = np.column_stack([layout.mesh.x, layout.mesh.y])[edge.vertex[[k, k + 1]]]
             point[end] = corners[0] + share * (corners[1] - corners[0])
             at[end] = edge.side[k], edge.vertex[k] if share == 0.0 else -1
-    first, last = cut[0], toe.vertex.size - cut[1]
-    if last - first < 2 or not any(cut):
+    if not any(sides):
         return layout
+    first, last = sides[0], toe.vertex.size - sides[1]
     shorter = Chain(
         toe.vertex[first:last].copy(),
         toe.side[first : last - 1].copy(),
@@ -163,7 +157,18 @@ def capped(layout: Layout) -> Layout:
     return layout._replace(auxiliary=shorter, middle=EndPoints(point, point, at, ends.height))
 
 
-def sides_of(layout: Layout, top: Chain, toe: Chain) -> int:
+def sides_of(layout: Layout) -> tuple[int, int]:
+    """How many segments of the toe are sides of the slope, at its start and at its end.
+
+    Registers often name the top only, and all else is toe. If the toe leaves the end of the top at
+    60 degrees or more and then turns to run along it, at less, what lies before the turn is a side.
+    """
+    top, toe = layout.main, layout.auxiliary
+    first, last = side_at(layout, top, toe), side_at(layout, backwards(top), backwards(toe))
+    return (first, last) if first + last < toe.side.size else (0, 0)
+
+
+def side_at(layout: Layout, top: Chain, toe: Chain) -> int:
     """How many segments of the toe, from the start that it shares with the top, are a side."""
     if top.vertex[0] != toe.vertex[0]:
         return 0
@@ -210,7 +215,7 @@ def line_around(strip: Strip) -> Floats:
     Of the ring slit open at one seam, half of the line is taken, far from the seam; the other half
     of the ring slit open on the other side.
     """
-    mesh, top, toe, _, _ = lay_out_ring(strip)
+    mesh, top, toe = lay_out_ring(strip)[:3]
     seam, other = seams(mesh, top, toe)
     area = abs(shapely.Polygon(strip.main).area - shapely.Polygon(strip.auxiliary).area)
     width = 2.0 * area / (top.arc[-1] + toe.arc[-1])

@@ -97,7 +97,7 @@ EndStrokes: TypeAlias = Annotated[
     of_strokes(
         "--end-strokes",
         metavar="",
-        help="Strokes on the straight ends of slopes too, if they are part of neither edge.",
+        help="Strokes on the straight ends of slopes too.",
     ),
 ]
 Stiffness: TypeAlias = Annotated[
