@@ -5,6 +5,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from shapely import Polygon
+from shapely.affinity import scale
 
 from midrib import Skeleton, skeleton
 from midrib.curves import axes
@@ -61,7 +62,8 @@ LAST_PLACE = {
         "6.500001579189397))"
     ),
 }
-WRONG = ("a_step_of_the_last_place", "a_tip_of_the_last_place")  # if all their vertices count
+# If all their vertices count; the step as it is or upside down: the order of triangles decides.
+WRONG = (("a_step_of_the_last_place", -1.0), ("a_tip_of_the_last_place", 1.0))
 
 
 def extent(area: Polygon) -> float:
@@ -92,16 +94,22 @@ def check(area: Polygon, found: Skeleton) -> None:
     assert len(found.edges) - len(found.points) + 1 <= len(rings) - 1
 
 
+def upright(name: str, up: float) -> Polygon:
+    """One of the areas, as it is or upside down."""
+    return scale(shapely.from_wkt(LAST_PLACE[name]), 1.0, up, origin=(0, 0))
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
 @pytest.mark.parametrize("name", sorted(LAST_PLACE))
-def test_radii_are_distances_where_walls_are_as_short_as_rounding(name: str) -> None:
-    area = shapely.from_wkt(LAST_PLACE[name])
+def test_radii_are_distances_where_walls_are_as_short_as_rounding(name: str, up: float) -> None:
+    area = upright(name, up)
     check(area, skeleton(area))
 
 
-@pytest.mark.parametrize("name", WRONG)
-def test_an_axis_with_a_wrong_radius_is_none(name: str) -> None:
+@pytest.mark.parametrize(("name", "up"), WRONG)
+def test_an_axis_with_a_wrong_radius_is_none(name: str, up: float) -> None:
     """The disc rolls along a wall whose direction is noise; the search ends, and all is wrong."""
-    area = shapely.from_wkt(LAST_PLACE[name])
+    area = upright(name, up)
     is_done, *_, fault = medial_axis(boundary_of(*rings_of_area(area)).mesh, 1.0, 1.0, 1e-3, 0.0)
     assert not is_done
     assert fault.miss > 1e-9 * extent(area)
