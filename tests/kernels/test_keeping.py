@@ -13,6 +13,7 @@ import pytest
 
 from midrib.kernels import jit
 from midrib.kernels.keeping import cache_folder, own_folder
+from midrib.kernels.telling import tell_first_compilation
 
 CODE = """
 from midrib.kernels.telling import tell_first_compilation
@@ -101,3 +102,13 @@ def test_folders_that_others_can_write_to_are_not_believed(no_home: Path) -> Non
     taken.rmdir()
     taken.symlink_to(no_home, target_is_directory=True)
     assert own_folder() != taken
+
+
+@compiled
+def test_the_last_who_asked_is_told_of_one_compilation() -> None:
+    told: list[str] = []
+    tell_first_compilation(lambda: told.append("nobody"))
+    tell_first_compilation(lambda: told.append("first"))
+    for _ in range(2):
+        COMPILER.njit(lambda x: x + 1)(1)
+    assert told == ["first"]

@@ -9,23 +9,25 @@ __all__ = ["tell_first_compilation"]
 
 
 class First(event.Listener):
-    """Tells of the first compilation of the process, and of no other."""
+    """Tells once of a compilation, then of no other until it is asked to anew."""
 
-    def __init__(self, tell: Callable[[], None]) -> None:
-        self.tell = tell
-        self.is_told = False
+    tell: Callable[[], None] | None = None
 
     def on_start(self, _: event.Event) -> None:
         """Tell that a kernel, which is not kept or not whole, is compiled now."""
-        if not self.is_told:
-            self.is_told = True
-            self.tell()
+        tell, self.tell = self.tell, None
+        if tell is not None:
+            tell()
 
     def on_end(self, _: event.Event) -> None:
         """Do nothing when it has been compiled."""
 
 
+FIRST = First()
+register: Any = event.register
+register("numba:compile", FIRST)
+
+
 def tell_first_compilation(tell: Callable[[], None]) -> None:
-    """Call something as soon as a kernel is compiled that was not loaded."""
-    register: Any = event.register
-    register("numba:compile", First(tell))
+    """Call something as soon as a kernel is compiled that was not loaded; the last one asked."""
+    FIRST.tell = tell
