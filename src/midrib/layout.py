@@ -94,7 +94,9 @@ def boundary_of(rings: Rings, height: Floats | None = None) -> Boundary:
         If rings cross or run along each other.
     """
     while True:
-        done = mesh_rings(rings.x, rings.y, rings.ring_next)
+        # As they came: straight skeletons, which take what happens at once in the order of
+        # triangles, are then found of street grids that have none by rings.
+        done = mesh_rings(rings.x, rings.y, rings.ring_next, False)
         if done.status > 0:
             k = done.status - 1
             msg = f"the boundary crosses itself near ({rings.x[k]:.12g}, {rings.y[k]:.12g})"

@@ -244,26 +244,27 @@ def test_vertices_go_in_coarse_to_fine(n: int) -> None:
 
 @callable_from_python
 @njit()
-def in_both_ways(x: Any, y: Any, ring_next: Any) -> Any:
+def in_both_ways(x: Any, y: Any, ring_next: Any, by_rings: Any) -> Any:
     """What is inside, gathered at once, and found by forcing segments in."""
     n = x.size
     same, touches = np.full(n, -1), np.full(n, -1)
     xy = within_triangle(x, y)
     face, out = np.empty(FACE * (2 * n + 1), np.int32), np.empty(n + 3, np.uint32)
     count = insert_all(n, xy, face, out, same)
-    inside = gather_inside(count, ring_next, same, face)
-    return inside, force_rings(count, x, y, xy, ring_next, same, touches, face, out)
+    inside = gather_inside(count, ring_next, same, face, by_rings)
+    return inside, force_rings(count, x, y, xy, ring_next, same, touches, face, out, by_rings)
 
 
 def check_both_ways(area: Polygon) -> bool:
     """Whether all segments were edges; then both ways agree, to the order of triangles."""
     rings, _ = rings_of_area(area)
-    inside, forced = in_both_ways(rings.x, rings.y, rings.ring_next)
-    if inside.is_done:
-        assert forced[0] == 0
-        assert forced[-1]
-        for one, other in zip(inside[1:], forced[1:4], strict=True):
-            assert np.array_equal(one, other)
+    for by_rings in (True, False):
+        inside, forced = in_both_ways(rings.x, rings.y, rings.ring_next, by_rings)
+        if inside.is_done:
+            assert forced[0] == 0
+            assert forced[-1]
+            for one, other in zip(inside[1:], forced[1:4], strict=True):
+                assert np.array_equal(one, other)
     return bool(inside.is_done)
 
 

@@ -15,7 +15,8 @@ from midrib.types import Ints, Places
 
 __all__ = ["Inside", "gather_inside"]
 
-ROW, UNKNOWN = 3, -1  # place in a triangle of its row among those kept
+ROW = 3  # place in a triangle of its row among those kept
+UNKNOWN, SEED = -1, -2  # rows of those that have none yet, and of those on a segment
 
 
 class Inside(NamedTuple):
@@ -28,9 +29,10 @@ class Inside(NamedTuple):
 
 
 @njit()
-def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places) -> Inside:
+def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places, by_rings: bool) -> Inside:
     """Keep the triangles that can be reached from the left of a segment without crossing one.
 
+    They are numbered in order along the rings, or else as they came.
     Not done where a segment is no edge, where rings touch, or where they are not nested as those
     of a valid area: where the right of a segment or the rim would be kept.
     """
@@ -46,7 +48,7 @@ def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places) -> Insi
     side_of_segment = np.empty(n, np.intp)
     if find_segments(count, follows, face, side_of_segment) != n or most < 1:
         return no
-    seeds = seed_inside(most, face, stack, side_of_segment)
+    seeds = seed_inside(count, most, face, stack, side_of_segment, by_rings)
     tri, twin = np.empty(3 * most, np.intp), np.empty(3 * most, np.intp)
     if seeds < 0 or not spread_inside(seeds, most, follows, face, stack, tri, twin, n):
         return no
@@ -69,12 +71,22 @@ def find_segments(count: int, follows: Places, face: Places, side_of_segment: In
 
 
 @njit(borrows=True)
-def seed_inside(most: int, face: Places, stack: Places, side_of_segment: Ints) -> int:
+def seed_inside(
+    count: int, most: int, face: Places, stack: Places, side_of_segment: Ints, by_rings: bool
+) -> int:
     """Put the triangles on the left of segments on the stack; how many, -1 if too many.
 
-    In order along the rings: whoever goes along them finds them side by side.
+    In order along the rings whoever goes along them finds them side by side.
     """
     size = 0
+    if not by_rings:
+        for k in range(side_of_segment.size):
+            face[(place(side_of_segment[k]) & -FACE) + ROW] = SEED
+        for t in range(count):
+            if face[FACE * place(t) + ROW] == SEED and size < most:
+                face[FACE * place(t) + ROW] = size
+                stack[place(size)] = t
+                size += 1
     for k in range(side_of_segment.size):
         e = place(side_of_segment[k])
         first = e & -FACE

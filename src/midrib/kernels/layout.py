@@ -37,7 +37,7 @@ def lay_out_rings(
         know what to do or to say. Nor where an area is neither known to be valid nor shown to be
         by its triangles.
     """
-    done = mesh_rings(rings.x, rings.y, rings.ring_next)
+    done = mesh_rings(rings.x, rings.y, rings.ring_next, True)
     touches = False
     for k in range(done.touches.size):
         touches = touches or done.touches[k] >= 0

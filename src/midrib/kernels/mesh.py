@@ -84,13 +84,15 @@ def doors(n: int, tri: Ints, twin: Ints) -> tuple[Ints, Ints]:
 
 
 @njit(entry=True)
-def mesh_rings(x: Floats, y: Floats, ring_next: Ints) -> Triangulated:
+def mesh_rings(x: Floats, y: Floats, ring_next: Ints, by_rings: bool) -> Triangulated:
     """Mesh of what lies to the left of the rings; see ``triangulate_rings``.
 
     ``side_of_segment[k]`` is the boundary side on ring segment k, ``vertex_of[k]`` the mesh vertex
     of ring vertex k (rings that touch share one), ``touches[k]`` a vertex inside segment k or -1.
     """
-    status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(x, y, ring_next)
+    status, tri, twin, side_of_segment, same, touches, is_valid = triangulate_rings(
+        x, y, ring_next, by_rings
+    )
     if is_valid:  # one boundary side leaves each vertex: that on its own segment
         door, other_door = side_of_segment.copy(), np.full(tri.size, -1, np.intp)
     else:

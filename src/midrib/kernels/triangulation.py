@@ -329,7 +329,7 @@ def insert_segments(
 
 @njit()
 def keep_inside(
-    count: int, n_segments: int, tri: Places, twin: Places, segment: Places
+    count: int, n_segments: int, tri: Places, twin: Places, segment: Places, by_rings: bool
 ) -> tuple[Ints, Ints, Ints, bool]:
     """Keep the triangles that can be reached from the left of a segment without crossing one.
 
@@ -344,6 +344,11 @@ def keep_inside(
     for e in range(3 * count):
         if segment[e] >= 0:
             side_of_segment[segment[e]] = e
+    for t in range(0 if by_rings else count):
+        e = 3 * place(t)
+        if max(segment[e], segment[e + 1], segment[e + 2]) >= 0:
+            row[t], stack[kept] = kept, t
+            kept += 1
     for k in range(n_segments):  # in order along the rings, see ``gathering``
         e = side_of_segment[k]
         if e >= 0 and row[place(e) // 3] < 0:
@@ -414,6 +419,7 @@ def force_rings(
     touches: Ints,
     face: Places,
     out: Places,
+    by_rings: bool,
 ) -> tuple[int, Ints, Ints, Ints, Ints, Ints, bool]:
     """Rings among vertices that are in, as ``triangulate_rings``: whatever rings they are."""
     n, nothing = x.size, np.empty(0, np.intp)
@@ -428,7 +434,7 @@ def force_rings(
         is_touched = is_touched or touches[k] >= 0
     if status != 0 or is_touched:
         return status, nothing, nothing, nothing, same, touches, False
-    kept = keep_inside(count, n, tri, twin, segment)
+    kept = keep_inside(count, n, tri, twin, segment, by_rings)
     is_valid = kept[3]
     for k in range(n):
         is_valid = is_valid and same[k] == k
@@ -437,7 +443,7 @@ def force_rings(
 
 @njit(entry=True)
 def triangulate_rings(
-    x: Floats, y: Floats, ring_next: Ints
+    x: Floats, y: Floats, ring_next: Ints, by_rings: bool
 ) -> tuple[int, Ints, Ints, Ints, Ints, Ints, bool]:
     """Triangulate what lies to the left of the rings.
 
@@ -445,6 +451,8 @@ def triangulate_rings(
     ----------
     x, y : (n,) vertices of all rings, no ring closed by a repeated vertex
     ring_next : (n,) the vertex after each one, so that segment k runs from k to ring_next[k]
+    by_rings : whether triangles are numbered in order along the rings, which is faster for whoever
+        goes along them, or as they came
 
     Returns
     -------
@@ -472,7 +480,7 @@ def triangulate_rings(
     count = insert_all(n, xy, face, out, same)
     if count < 0:
         return -1, nothing, nothing, nothing, same, touches, False
-    inside = gather_inside(count, ring_next, same, face)
+    inside = gather_inside(count, ring_next, same, face, by_rings)
     if inside.is_done:
         return 0, inside.tri, inside.twin, inside.side_of_segment, same, touches, True
-    return force_rings(count, x, y, xy, ring_next, same, touches, face, out)
+    return force_rings(count, x, y, xy, ring_next, same, touches, face, out, by_rings)
