@@ -59,7 +59,7 @@ def test_row_groups_that_have_been_read_do_not_stay_in_memory(tmp_path: Path) ->
     n = 40_000
     random = np.random.default_rng(1)
     wkb = pa.array([random.bytes(256) for _ in range(n)], type=pa.binary())
-    pq.write_table(pa.table({"geom": wkb}), tmp_path / "in", row_group_size=2_000)
+    pq.write_table(pa.table({"geom": wkb}), tmp_path / "in", row_group_size=1_000)
     del wkb
     before = peak = pa.total_allocated_bytes()
     with pq.ParquetFile(tmp_path / "in") as file:
