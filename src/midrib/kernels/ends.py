@@ -110,21 +110,18 @@ def sweep(
         if entered[f // 3] != 0:
             continue
         entered[f // 3] = 1
-        w = place(mesh.tri[previous_side(f)])
+        u, v, w = place(mesh.tri[e]), place(mesh.tri[f]), place(mesh.tri[previous_side(f)])
         mx, my = middle_of(mesh, e)
-        to_w = cost[e] + length((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
-        for v in (place(mesh.tri[e]), place(mesh.tri[f])):
-            dx, dy = (mesh.x[w] - mesh.x[v]) * scale_x, (mesh.y[w] - mesh.y[v]) * scale_y
-            to_w = min(to_w, way[v] + length(dx, dy))
-        way[w] = min(way[w], to_w)
-        for side in (next_side(f), previous_side(f)):
+        to_m = length((mesh.x[w] - mx) * scale_x, (mesh.y[w] - my) * scale_y)
+        to_u = length((mesh.x[w] - mesh.x[u]) * scale_x, (mesh.y[w] - mesh.y[u]) * scale_y)
+        to_v = length((mesh.x[w] - mesh.x[v]) * scale_x, (mesh.y[w] - mesh.y[v]) * scale_y)
+        way[w] = min(way[w], cost[e] + to_m, way[u] + to_u, way[v] + to_v)
+        # From middle to middle it is half the third side, from a vertex to a middle half its own.
+        by_u = min(cost[e] + to_v / 2.0, min(way[u], way[w]) + to_u / 2.0)
+        by_v = min(cost[e] + to_u / 2.0, min(way[v], way[w]) + to_v / 2.0)
+        for side, to_side in ((next_side(f), by_u), (previous_side(f), by_v)):
             if mesh.twin[side] < 0 or entered[place(mesh.twin[side]) // 3] != 0:
                 continue
-            nx, ny = middle_of(mesh, side)
-            to_side = cost[e] + length((nx - mx) * scale_x, (ny - my) * scale_y)
-            for v in (place(mesh.tri[side]), place(mesh.tri[next_side(side)])):
-                dx, dy = (nx - mesh.x[v]) * scale_x, (ny - mesh.y[v]) * scale_y
-                to_side = min(to_side, way[v] + length(dx, dy))
             cost[side] = to_side
             frontier[place(size)] = side
             size = size + 1 if is_tree else push(frontier, cost, size, side)
