@@ -91,14 +91,16 @@ def point_beside(
     tolerance: float,
     scale_x: float,
     scale_y: float,
-) -> tuple[int, float, float]:
+) -> tuple[int, float, float, bool]:
     """Return the triangle and place of a point of the trunk beside the way from p in t to q.
+
+    And whether it can be seen from p.
 
     It is where the way is farthest off, or where either half of it is, if that cannot be reached;
     -1 if the way is good enough or no point can be. Points that crowd p or q come last. Of a line
     that is to be exact it is the kink, if there is one between two straight stretches.
     """
-    best, best_x, best_y, most = -1, 0.0, 0.0, 0.0
+    best, best_x, best_y, best_is_seen, most = -1, 0.0, 0.0, False, 0.0
     enough = CROWDED * length((qx - px) * scale_x, (qy - py) * scale_y)
     for k in range(3):
         low, high = (0.0, 1.0) if k == 0 else (0.0, 0.5) if k == 1 else (0.5, 1.0)
@@ -110,11 +112,11 @@ def point_beside(
         if at < 0.0 and k == 0:
             break
         if tolerance == 0.0 and k == 0:
-            end, x, y = kink_beside(mesh, banks, t, px, py, qx, qy, scale_x, scale_y)
+            end, x, y, is_seen = kink_beside(mesh, banks, t, px, py, qx, qy, scale_x, scale_y)
             to_p = length((x - px) * scale_x, (y - py) * scale_y)
             to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
             if end >= 0 and min(to_p, to_q) > apart_of(banks, tolerance):  # else it is p or q
-                return end, x, y
+                return end, x, y, is_seen
         hx, hy = ax + at * (bx - ax), ay + at * (by - ay)
         for is_away in (False, True):
             if at < 0.0:
@@ -124,16 +126,18 @@ def point_beside(
                 ux, uy = way_from_nearer(lean, hx * scale_x, hy * scale_y)
             is_found, x, y = level_from(banks, lean, hx * scale_x, hy * scale_y, ux, uy)
             x, y = x / scale_x, y / scale_y
-            end = walk_by(mesh, t, px, py, hx, hy, x, y) if is_found else -1
+            end, is_seen = -1, False
+            if is_found:
+                end, is_seen = walk_past(mesh, t, px, py, hx, hy, x, y)
             to_p = length((x - px) * scale_x, (y - py) * scale_y)
             to_q = length((x - qx) * scale_x, (y - qy) * scale_y)
             if end >= 0 and min(to_p, to_q) >= enough:
-                return end, x, y
+                return end, x, y, is_seen
             if end >= 0 and min(to_p, to_q) > most:
-                best, best_x, best_y, most = end, x, y, min(to_p, to_q)
+                best, best_x, best_y, best_is_seen, most = end, x, y, is_seen, min(to_p, to_q)
     if best >= 0:
         lean_at(banks, best_x * scale_x, best_y * scale_y)  # its feet are the last ones
-    return best, best_x, best_y
+    return best, best_x, best_y, best_is_seen
 
 
 @njit(borrows=True)
@@ -147,8 +151,10 @@ def kink_beside(
     qy: float,
     scale_x: float,
     scale_y: float,
-) -> tuple[int, float, float]:
+) -> tuple[int, float, float, bool]:
     """Return the triangle and place of the kink between p in t and q; -1 if it is not the only one.
+
+    And whether it can be seen from p.
 
     Level points next to p and q say how the level line goes on from there: p and q may be kinks
     themselves.
@@ -157,15 +163,16 @@ def kink_beside(
     at_p, ax, ay = level_at(banks, (px + dx) * scale_x, (py + dy) * scale_y)
     at_q, bx, by = level_at(banks, (qx - dx) * scale_x, (qy - dy) * scale_y)
     if not (at_p and at_q):
-        return -1, 0.0, 0.0
+        return -1, 0.0, 0.0, False
     is_kink, x, y = level_where_straight(banks, ax, ay, bx, by)
     look_everywhere(banks)  # it need not lie between the radii of p and q
     dx, dy = (bx - ax), (by - ay)
     is_between = 0.0 < (x - ax) * dx + (y - ay) * dy < dx * dx + dy * dy
     if not (is_kink and is_between and is_level(lean_at(banks, x, y), banks.slack)):
-        return -1, 0.0, 0.0
+        return -1, 0.0, 0.0, False
     hx, hy, x, y = ax / scale_x, ay / scale_y, x / scale_x, y / scale_y
-    return walk_by(mesh, t, px, py, hx, hy, x, y), x, y
+    end, is_seen = walk_past(mesh, t, px, py, hx, hy, x, y)
+    return end, x, y, is_seen
 
 
 @njit(borrows=True)
@@ -218,14 +225,18 @@ def worst_probe(
 
 
 @njit(borrows=True)
-def walk_by(
+def walk_past(
     mesh: Mesh, t: int, px: float, py: float, x: float, y: float, qx: float, qy: float
-) -> int:
-    """Return the triangle in which the way from p in t straight to x and on to q ends; -1 if none.
+) -> tuple[int, bool]:
+    """Return the triangle of q, which p in t sees, or sees from (x, y) on; -1 if it does not.
 
-    Islands are in nobody's way between the banks; here they are.
+    And whether it does from p: mostly it does, and the path will go straight. Islands are in
+    nobody's way between the banks; here they are.
     """
+    end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
+    if obstacle == -1:
+        return end, True
     end, obstacle = walk(mesh, t, -1, px, py, x, y)
     if obstacle == -1:
         end, obstacle = walk(mesh, end, -1, x, y, qx, qy)
-    return end if obstacle == -1 else -1
+    return (end if obstacle == -1 else -1), False

@@ -52,7 +52,7 @@ class Goals(NamedTuple):
     """Points that wait to be reached, the next one last."""
 
     point: Floats  # (k, 2)
-    at: Ints  # (k, 3) triangle, source, depth
+    at: Ints  # (k, 4) triangle, source, depth, whether the way there is known to be free
     near: Ints  # (k, 2) segments of both banks
 
 
@@ -99,7 +99,7 @@ def trace(
     track = new_track(4 * n + 16)
     goals = Goals(
         np.empty((DEPTH + 4, 2)),
-        np.empty((DEPTH + 4, 3), np.intp),
+        np.empty((DEPTH + 4, 4), np.intp),
         np.empty((DEPTH + 4, 2), np.intp),
     )
     p_near = np.zeros(2, np.intp)
@@ -119,7 +119,7 @@ def trace(
             )  # fmt: skip
             is_end = ends.are_given and i in (0, n - 1)
             if aims_at(ends, end, is_end, t, px, py, qx, qy, apart, scale_x, scale_y):
-                waiting = add_goal(goals, 0, end, i, 0, qx, qy, stops.nearest[k])
+                waiting = add_goal(goals, 0, end, i, 0, False, qx, qy, stops.nearest[k])
         elif status == BLOCKED:
             top = waiting - 1
             qx, qy, depth = goals.point[top, 0], goals.point[top, 1], goals.at[top, 2]
@@ -138,7 +138,7 @@ def trace(
                     )
             if between >= 0 and is_new(mx, my, px, py, qx, qy, apart, scale_x, scale_y):
                 goals.at[top, 2], status = depth + 1, GO_ON
-                waiting = add_goal(goals, waiting, between, n, depth + 1, mx, my, banks.last)
+                waiting = add_goal(goals, waiting, between, n, depth + 1, False, mx, my, banks.last)
             else:
                 if count + turns.size >= track.source.size:
                     track = longer_track(track, 2 * (count + turns.size + 1))
@@ -147,7 +147,7 @@ def trace(
     return track.point[:count], track.source[:count]
 
 
-@njit(borrows=True)
+@njit(inline=True, borrows=True)
 def advance(
     mesh: Mesh,
     banks: Banks,
@@ -182,28 +182,34 @@ def advance(
             if k == stops.at.size:
                 return ALL_DONE, k, waiting, count, t, px, py
             qx, qy, i = stops.point[k, 0], stops.point[k, 1], stops.at[k]
+            end, obstacle = -1, -2
+            if t >= 0:
+                end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
             if i < 0:
                 end, i = -1 - i, n
-            else:
+            elif obstacle != -1:
                 ox, oy = beads.origin[i, 0], beads.origin[i, 1]
                 end, qx, qy = locate_beside(mesh, beads.side[i], beads.vertex[i], ox, oy, qx, qy, t)
                 if end == FARTHER:
                     return LOST, k, waiting, count, t, px, py
             is_end = ends.are_given and i in (0, n - 1)
             if aims_at(ends, end, is_end, t, px, py, qx, qy, apart, scale_x, scale_y):
-                waiting = add_goal(goals, 0, end, i, 0, qx, qy, stops.nearest[k])
+                is_free = obstacle == -1
+                waiting = add_goal(goals, 0, end, i, 0, is_free, qx, qy, stops.nearest[k])
             continue
         if count == track.source.size:
             return FULL, k, waiting, count, t, px, py
         # 2. A point between, if the way to the goal is not good enough.
         top = waiting - 1
         qx, qy, depth = goals.point[top, 0], goals.point[top, 1], goals.at[top, 2]
-        end = goals.at[top, 0]
+        end, is_free = goals.at[top, 0], goals.at[top, 3] != 0
         if t >= 0 and status == GO_ON:
-            end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
-            if obstacle != -1:
-                return BLOCKED, k, waiting, count, t, px, py
-            between, mx, my = -1, 0.0, 0.0
+            if not is_free:
+                end, obstacle = walk(mesh, t, -1, px, py, qx, qy)
+                if obstacle != -1:
+                    return BLOCKED, k, waiting, count, t, px, py
+            goals.at[top, 3] = 0  # from where the path is next nobody knows
+            between, mx, my, is_seen = -1, 0.0, 0.0, False
             if depth < DEPTH:
                 if ends.are_given and (count == 1 or goals.at[top, 1] == n - 1):
                     look_everywhere(banks)  # ends are off the trunk
@@ -213,12 +219,14 @@ def advance(
                     banks, p_near, goals.near[top], px * scale_x, py * scale_y,
                     qx * scale_x, qy * scale_y, tolerance,
                 ):  # fmt: skip
-                    between, mx, my = point_beside(
+                    between, mx, my, is_seen = point_beside(
                         mesh, banks, ends, t, px, py, qx, qy, tolerance, scale_x, scale_y
                     )
             if between >= 0 and is_new(mx, my, px, py, qx, qy, apart, scale_x, scale_y):
-                goals.at[top, 2] = depth + 1
-                waiting = add_goal(goals, waiting, between, n, depth + 1, mx, my, banks.last)
+                goals.at[top, 0], goals.at[top, 2] = end, depth + 1
+                waiting = add_goal(
+                    goals, waiting, between, n, depth + 1, is_seen, mx, my, banks.last
+                )
                 continue
         # 3. Where the path comes back on itself, it had better not gone there: it goes on from
         #    the point before, and the way from there is probed anew.
@@ -231,7 +239,7 @@ def advance(
             if obstacle == -1:
                 count, t, px, py = count - 1, track.inside[before], x, y
                 p_near[0], p_near[1] = track.feet[before, 0], track.feet[before, 1]
-                goals.at[top, 2] = min(depth + 1, DEPTH)
+                goals.at[top, 2], goals.at[top, 3] = min(depth + 1, DEPTH), 1
                 is_last = ends.are_given and goals.at[top, 1] == n - 1
                 if not is_last and is_near(qx, qy, x, y, apart, scale_x, scale_y):
                     waiting -= 1
@@ -270,11 +278,20 @@ def aims_at(
 
 @njit(borrows=True)
 def add_goal(
-    goals: Goals, waiting: int, t: int, source: int, depth: int, x: float, y: float, near: Ints
+    goals: Goals,
+    waiting: int,
+    t: int,
+    source: int,
+    depth: int,
+    is_free: bool,
+    x: float,
+    y: float,
+    near: Ints,
 ) -> int:
     """Put a goal on top; the new number of them."""
     goals.point[waiting, 0], goals.point[waiting, 1] = x, y
     goals.at[waiting, 0], goals.at[waiting, 1], goals.at[waiting, 2] = t, source, depth
+    goals.at[waiting, 3] = is_free
     goals.near[waiting, 0], goals.near[waiting, 1] = near[0], near[1]
     return waiting + 1
 
