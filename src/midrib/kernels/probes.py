@@ -7,6 +7,7 @@ from midrib.kernels.banks import (
     Banks,
     Lean,
     is_level,
+    is_looking_between,
     is_straight,
     lean_at,
     level_from,
@@ -59,7 +60,7 @@ def is_between_lines(
     lean is linear, and where it is next to none at p and at q no probe can be off. A third of all
     probes need not be made in areas of 100 vertices.
     """
-    if not banks.is_windowed or first[0] != last[0] or first[1] != last[1]:
+    if not is_looking_between(banks) or first[0] != last[0] or first[1] != last[1]:
         return False
     lean_p, lean_q = 0.0, 0.0
     for k in range(2):

@@ -214,7 +214,10 @@ def advance(
                 if ends.are_given and (count == 1 or goals.at[top, 1] == n - 1):
                     look_everywhere(banks)  # ends are off the trunk
                 else:
-                    look_between(banks, p_near, goals.near[top])
+                    look_between(
+                        banks, p_near, goals.near[top],
+                        px * scale_x, py * scale_y, qx * scale_x, qy * scale_y,
+                    )  # fmt: skip
                 if not is_between_lines(
                     banks, p_near, goals.near[top], px * scale_x, py * scale_y,
                     qx * scale_x, qy * scale_y, tolerance,

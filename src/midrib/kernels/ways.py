@@ -30,7 +30,7 @@ __all__ = [
 ]
 
 CLOSE = 0.5  # widths: stops nearer to each other than that are as good as one
-CLOSE_SIDES = 0.25  # the same, for middles of sides: the stop may be where their end is
+CLOSE_SIDES = 0.5  # the same, for the ends of sides: in a fan one end stays where it is
 
 
 class Stops(NamedTuple):
@@ -158,18 +158,18 @@ def stops_on_way(
     point, at = np.empty((way.size + 2, 2)), np.empty(way.size + 2, np.intp)
     nearest = np.empty((way.size + 2, 2), np.intp)
     before_x, before_y = np.inf, np.inf
-    middle_x, middle_y, wide = np.inf, np.inf, 0.0  # of the last side that was looked at
+    side, wide = (np.inf, np.inf, np.inf, np.inf), 0.0  # the last side that was looked at
     for e in way:
         p, q = mesh.tri[e], mesh.tri[next_side(e)]
         if not is_main[p]:
             p, q = q, p
         px, py, qx, qy = mesh.x[p], mesh.y[p], mesh.x[q], mesh.y[q]
         px, py, qx, qy = px * scale_x, py * scale_y, qx * scale_x, qy * scale_y
-        mx, my = (px + qx) / 2.0, (py + qy) / 2.0
-        if length(mx - middle_x, my - middle_y) < CLOSE_SIDES * wide:
+        moved_p, moved_q = length(px - side[0], py - side[1]), length(qx - side[2], qy - side[3])
+        if max(moved_p, moved_q) < CLOSE_SIDES * wide:
             continue
         x, y, wide = level_between(banks, px, py, qx, qy, 0.5)
-        middle_x, middle_y = mx, my
+        side = px, py, qx, qy
         if length(x - before_x, y - before_y) < CLOSE * wide:
             continue
         before_x, before_y, n = x, y, n + 1
