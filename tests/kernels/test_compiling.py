@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numba as nb
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from midrib.kernels import jit
 from midrib.kernels.jit import njit
@@ -15,6 +16,9 @@ COMPILER: Any = nb
 pytestmark = pytest.mark.skipif(
     COMPILER.config.DISABLE_JIT or not jit.IS_KNOWN, reason="nothing is compiled as parts"
 )
+
+
+Cube = NDArray[np.int32]
 
 
 class Table(NamedTuple):
@@ -89,6 +93,29 @@ def elements(x: Floats, grid: Floats, flags: Bools, k: int, small: np.int8) -> F
     return np.array([x[k], x[-1], x[small], column[0], grid[-2, 1], grid[k, small], flags[small]])
 
 
+@njit(borrows=True)
+def steps(block: Cube, column: Floats, across: Floats) -> tuple[float, int, int]:
+    """Weigh every element by its place; bytes and items of the block: a part that is handed all."""
+    total = 0.0
+    for i in range(block.shape[0]):
+        for j in range(block.shape[1]):
+            for k in range(block.shape[2]):
+                total += (100 * i + 10 * j + k) * block[i, j, k]
+    for i in range(column.size):
+        total += i * column[i]
+    for i in range(across.shape[0]):
+        for j in range(across.shape[1]):
+            total += (10 * i + j) * across[i, j]
+    return total, block.size * block.itemsize, block.strides[0]
+
+
+@njit(entry=True)
+def stepped(block: Cube) -> Floats:
+    """Hand over a block, a column of it and a table that lies crosswise."""
+    total, size, step = steps(block, block[1, :, 1], block[0].T)
+    return np.array([total, size, step])
+
+
 @njit(entry=True)
 def other_entry(n: int) -> float:
     """Sum by the same parts and by an entry, which is one of them here."""
@@ -119,6 +146,13 @@ def fresh(kernel: Any) -> Any:
     return COMPILER.njit(
         python_of(kernel), pipeline_class=WholeCompiler, error_model="numpy", no_cfunc_wrapper=True
     )
+
+
+def test_arrays_come_through_with_their_steps() -> None:
+    block = np.arange(24, dtype=np.int32).reshape(2, 3, 4) + 1
+    expected = python_of(steps)(block, block[1, :, 1], block[0].T)
+    np.testing.assert_array_equal(stepped(block), expected)
+    assert stepped(block)[1:].tolist() == [96, 48]
 
 
 @pytest.mark.parametrize("n", [1, 2, 5, 6])

@@ -128,24 +128,31 @@ class UncutMembers(Uncut):
 
     def get_argument_type(self) -> Any:
         """Return the type of what is handed over."""
-        kinds = [model.get_argument_type() for model in self.models()]
-        return ir.LiteralStructType(kinds) if kinds else ()
+        if self.is_empty():
+            return ()
+        models = self.models()
+        kinds = [m.get_argument_type() if is_cut_down(m) else m.get_value_type() for m in models]
+        return ir.LiteralStructType(kinds)
 
     def as_argument(self, builder: Any, value: Any) -> Any:
         """Return what is handed over."""
         if self.is_empty():
             return ()
-        members = zip(self.models(), members_of(builder, value), strict=True)
-        kept = [model.as_argument(builder, member) for model, member in members]
-        return record(builder, self.get_argument_type(), kept)
+        members = members_of(builder, value)
+        for i, model in enumerate(self.models()):
+            if is_cut_down(model):
+                members[i] = model.as_argument(builder, members[i])
+        return record(builder, self.get_argument_type(), members)
 
     def from_argument(self, builder: Any, value: Any) -> Any:
         """Return the record."""
         if self.is_empty():
             return super().from_argument(builder, value)
-        members = zip(self.models(), members_of(builder, value), strict=True)
-        found = [model.from_argument(builder, member) for model, member in members]
-        return record(builder, self.get_value_type(), found)
+        members = members_of(builder, value)
+        for i, model in enumerate(self.models()):
+            if is_cut_down(model):
+                members[i] = model.from_argument(builder, members[i])
+        return record(builder, self.get_value_type(), members)
 
     def models(self) -> list[Any]:
         """Return those of its members."""
@@ -160,6 +167,11 @@ class UncutRecord(UncutMembers, TupleModel):
 
 class UncutRow(UncutMembers, UniTupleModel):
     """A record of members of one type."""
+
+
+def is_cut_down(model: Any) -> bool:
+    """Whether a member is handed over in another form than it has; others go as they are."""
+    return isinstance(model, Uncut) and not model.is_empty()
 
 
 def members_of(builder: Any, value: Any) -> list[Any]:
