@@ -94,7 +94,7 @@ def elements(x: Floats, grid: Floats, flags: Bools, k: int, small: np.int8) -> F
 
 
 @njit(borrows=True)
-def steps(block: Cube, column: Floats, across: Floats) -> tuple[float, int, int]:
+def steps(block: Cube, column: Cube, across: Cube) -> tuple[float, int, int]:
     """Weigh every element by its place; bytes and items of the block: a part that is handed all."""
     total = 0.0
     for i in range(block.shape[0]):
