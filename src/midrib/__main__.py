@@ -1,5 +1,6 @@
 """The ``midrib`` command; ``python -m midrib`` is the same."""
 
+import gc
 import sys
 import warnings
 
@@ -10,11 +11,13 @@ from midrib.interrupts import INTERRUPTED
 __all__ = ["main"]
 
 WRONG_USAGE = 2
+OBJECTS = 100_000  # new ones after which garbage is looked for
 
 
 def main() -> None:
     """Run the command line and leave with its exit code."""
     interrupts.install()  # before the imports, which take a while
+    gc.set_threshold(OBJECTS)  # what they make is none, and a sixth of a start went into finding so
     from midrib.cli.app import app
 
     warnings.formatwarning = lambda message, *_, **__: f"midrib: note: {message}\n"

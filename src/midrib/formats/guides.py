@@ -13,7 +13,6 @@ from shapely import LineString
 from midrib.errors import ParameterError
 from midrib.formats.contents import layer_names, listed
 from midrib.formats.reading import open_layer
-from midrib.formats.tops import joined_tops
 from midrib.formats.units import check_same_plane
 
 if TYPE_CHECKING:
@@ -37,6 +36,8 @@ class Guides(ABC):
 
         Of several it is the longest, once those that follow each other along the area are joined.
         """
+        from midrib.formats.tops import joined_tops  # with hatching, which nobody else needs here
+
         lines, unreadable = self.all_of(batch)
         found = np.full(len(lines), None, dtype=object)
         for k, (area, some) in enumerate(zip(batch.geometries, lines, strict=True)):

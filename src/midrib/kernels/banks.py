@@ -101,7 +101,9 @@ def bank_of(
     for k in range(loops.is_main.size):
         if loops.is_main[k] == is_main:
             size += loops.start[k + 1] - loops.start[k] + 1
-    size += 2 * int(np.count_nonzero(loops.wall_is_main == is_main))
+    for k in range(loops.wall_is_main.size):
+        if loops.wall_is_main[k] == is_main:
+            size += 2
     x, y, goes_on = np.empty(size), np.empty(size), np.ones(size, np.bool_)
     for i in range(n):
         x[i], y[i] = mesh.x[chain.vertex[i]] * scale_x, mesh.y[chain.vertex[i]] * scale_y

@@ -23,7 +23,7 @@ from midrib.kernels.boxtree import DEPTH, LEAF, box_tree
 from midrib.kernels.chain import Chain
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import Mesh, next_boundary_side
+from midrib.kernels.mesh import Mesh, boundary_size, next_boundary_side
 from midrib.kernels.predicates import orient
 from midrib.kernels.tables import range_of
 from midrib.kernels.triangulation import next_side
@@ -69,10 +69,7 @@ def no_loops() -> Loops:
 @njit(borrows=True)
 def has_islands(mesh: Mesh, main: Chain, auxiliary: Chain) -> bool:
     """Whether there is boundary besides the two curves and the caps between them."""
-    sides = 0
-    for e in range(mesh.tri.size):
-        if mesh.twin[e] < 0:
-            sides += 1
+    sides = boundary_size(mesh)
     known = main.side.size + auxiliary.side.size
     for chain, other in ((main, auxiliary), (auxiliary, main)):
         # From the last side of either curve on: a cap leads to the other curve, a hole back.

@@ -71,10 +71,10 @@ def njit(
         whole = {"pipeline_class": compiling.WholeCompiler} if entry and IS_KNOWN else {}
         try:
             dispatcher: Any = nb.njit(kernel, **(options | whole))
+            if entry and IS_KNOWN:
+                seal(dispatcher)
         finally:
             config.CACHE_DIR = usual
-        if entry and IS_KNOWN:
-            seal(dispatcher)
         within = of_kernel(kernel, options | WITHIN, dispatcher)
         dispatcher.get_call_template = lambda args, kws: within().call(args, kws)
         dispatcher.get_overload = lambda signature: within().code(signature)

@@ -19,7 +19,8 @@ from pathlib import Path
 from typing import Any
 
 import numba as nb
-from numba.core.caching import IndexDataCacheFile
+from numba.core import runtime
+from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 __all__ = ["Sealed", "cache_folder", "seal"]
 
@@ -65,12 +66,28 @@ class Sealed(IndexDataCacheFile):
         return found
 
 
+class Kept(FunctionCache):
+    """What is kept of one kernel, in sealed files."""
+
+    def __init__(self, kernel: Any) -> None:
+        usual: Any = super()
+        sealed: Any = Sealed
+        usual.__init__(kernel)
+        impl: Any = self._impl
+        stamp = impl.locator.get_source_stamp()
+        self._cache_file: Any = sealed(self._cache_path, impl.filename_base, stamp)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Load code: without all that Numba knows of functions, which takes a tenth of a start."""
+        numba_runtime: Any = runtime
+        numba_runtime.rtsys.initialize(target_context)
+        load: Any = self._load_overload
+        return load(sig, target_context)
+
+
 def seal(dispatcher: Any) -> None:
     """Have a kernel kept in sealed files."""
-    sealed: Any = Sealed
-    kept = dispatcher._cache
-    impl = kept._impl
-    kept._cache_file = sealed(kept._cache_path, impl.filename_base, impl.locator.get_source_stamp())
+    dispatcher._cache = Kept(dispatcher.py_func)
 
 
 @cache

@@ -24,6 +24,7 @@ from midrib.types import Floats, Ints
 __all__ = [
     "Mesh",
     "Triangulated",
+    "boundary_size",
     "contains",
     "doors",
     "is_beyond",
@@ -70,6 +71,16 @@ def next_boundary_side(mesh: Mesh, e: int) -> int:
     while mesh.twin[e] >= 0:
         e = next_side(place(mesh.twin[e]))
     return e
+
+
+@njit(borrows=True)
+def boundary_size(mesh: Mesh) -> int:
+    """How many sides of the mesh are on the boundary."""
+    count = 0
+    for e in range(mesh.twin.size):
+        if mesh.twin[e] < 0:
+            count += 1
+    return count
 
 
 @njit()

@@ -15,7 +15,7 @@ import numpy as np
 from midrib.kernels.ends import mean_width, propose_ends, shorter_bank
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
-from midrib.kernels.mesh import Mesh, doors, next_boundary_side
+from midrib.kernels.mesh import Mesh, boundary_size, doors, next_boundary_side
 from midrib.kernels.triangulation import previous_side
 from midrib.types import Bools, Floats, Ints
 
@@ -65,7 +65,7 @@ def propose_division(
     inside = np.empty(walk.size, np.intp)
     for i in range(walk.size):
         inside[i] = apart.tri[walk[i]]
-    is_simple = walk.size == np.count_nonzero(mesh.twin < 0)
+    is_simple = walk.size == boundary_size(mesh)
     places, shares = propose_ends(apart, inside, -1, is_simple, scale_x, scale_y)
     # 2. The same on the shell, if they divide it.
     place = np.full(mesh.tri.size, -1, np.intp)
