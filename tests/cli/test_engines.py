@@ -279,3 +279,20 @@ def test_epochs_of_files_in_a_folder_have_to_be_the_same(tmp_path: Path, midrib:
     outcome = midrib("collapse", tmp_path / "in", tmp_path / "out.parquet")
     assert outcome.code == 2
     assert "b.parquet' has other columns or another CRS or epoch than 'a.parquet'" in outcome.err
+
+
+def test_row_groups_of_long_texts_have_few_rows(
+    tmp_path: Path, midrib: Runner, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("midrib.formats.geoparquet.GROUP_BYTES", 100_000)
+    path = write_areas(tmp_path / "in.parquet", 40)
+    table = pq.read_table(path)
+    texts = pa.array([str(k) * 6_000 for k in range(40)])
+    pq.write_table(table.append_column("text", texts), path)
+    assert midrib("collapse", path, tmp_path / "out.parquet").code == 1  # an area is refused
+    file = pq.ParquetFile(tmp_path / "out.parquet")
+    rows = [file.metadata.row_group(k).num_rows for k in range(file.num_row_groups)]
+    lines = file.read()["text"].to_pylist()
+    assert [text for text in texts.to_pylist() if text in lines] == lines
+    assert sum(rows) == len(lines) >= 38
+    assert 5 <= len(rows) <= 10

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, TypeVar
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 import pyarrow.parquet as pq
 import shapely
 
 from midrib.errors import ParameterError
+from midrib.formats.row_sizes import row_sizes
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -32,7 +32,7 @@ More: TypeAlias = tuple[tuple[str, Any], ...]  # metadata of a column that resul
 Kind: TypeAlias = tuple[str, bool, bool]  # name, has Z, has M
 
 VERSION = "1.1.0"
-GROUP_ROWS, GROUP_BYTES = 50_000, 64_000_000  # of a row group at most, bytes of WKB
+GROUP_ROWS, GROUP_BYTES = 50_000, 64_000_000  # of a row group at most
 KEPT = {"epoch": None, "edges": "planar"}  # what no entry stands for
 CORNERS = ("xmin", "ymin", "xmax", "ymax")
 BOX = pa.struct([(corner, pa.float64()) for corner in CORNERS])
@@ -208,9 +208,8 @@ class GeoParquetWriter:
         if there.size:
             self.bounds.append(shapely.total_bounds(there))
         table = table.append_column(pa.field(self.covering, BOX), box_column(boxes))
-        sizes = pc.fill_null(pc.binary_length(wkb), 0).to_numpy(zero_copy_only=False)
         first = 0
-        for stop in self.stops(sizes):
+        for stop in self.stops(row_sizes(table)):
             self.hold(table.slice(first, stop - first))
             self.flush()
             first = stop
