@@ -1,12 +1,14 @@
 """Files are whole or not there."""
 
+import datetime
 from pathlib import Path
 
+import pyarrow as pa
 import pytest
 
 from midrib.errors import ParameterError
-from midrib.formats.writing import check_free, staged
-from tests.formats.layers import read_all, write
+from midrib.formats.writing import check_free, staged, write_layer
+from tests.formats.layers import features_of, read_all, write
 
 LINES: list[str | None] = ["LINESTRING (0 0, 1 1)", "LINESTRING (2 0, 3 1)"]
 
@@ -89,3 +91,23 @@ def test_folders_that_take_no_files_are_named(tmp_path: Path) -> None:
     folder = tmp_path / "absent"
     with pytest.raises(ParameterError, match=r"absent.*No such file"), staged(folder):
         pass
+
+
+@pytest.mark.parametrize("unit", ["s", "ms", "us", "ns"])
+@pytest.mark.parametrize("ending", ["gpkg", "geojson", "fgb"])
+def test_columns_that_no_driver_takes_become_numbers_and_texts(
+    ending: str, unit: str, tmp_path: Path
+) -> None:
+    features = features_of(LINES)
+    ages = pa.array([datetime.timedelta(hours=1, seconds=2), None], pa.duration(unit))
+    table = features.attributes.append_column("age", ages).append_column("empty", pa.nulls(2))
+    path = tmp_path / f"lines.{ending}"
+    notes = write_layer(path, features._replace(attributes=table))
+    assert "the field 'age' is written in seconds" in notes
+    _, found, _ = read_all(path)
+    assert found["age"].to_pylist() == [3602.0, None]
+    assert found["empty"].to_pylist() == [None, None]
+    # GeoParquet keeps what they are.
+    path = tmp_path / "lines.parquet"
+    assert write_layer(path, features._replace(attributes=table)) == []
+    assert pa.types.is_duration(read_all(path)[1]["age"].type)

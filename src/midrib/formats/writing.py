@@ -16,6 +16,7 @@ import shapely
 
 from midrib import interrupts
 from midrib.errors import ParameterError
+from midrib.formats.columns import stored, stored_type
 from midrib.formats.endings import (
     DECIMALS,
     FOLDERS,
@@ -191,13 +192,23 @@ def write_tables(path: Path, layer: Layer, tables: Callable[[], Iterable[pa.Tabl
         names, renamed = distinct_names(layer.attributes.names, layer.geometry, target, numbering)
         notes += renamed
     types = layer.attributes.types[: len(names)]
+    if target.driver != PARQUET:
+        known, types = types, [stored_type(kind) for kind in types]
+        notes += [
+            f"the field {name!r} is written in seconds"
+            for name, kind in zip(names, known, strict=True)
+            if pa.types.is_duration(kind)
+        ]
     schema = pa.schema([*zip(names, types, strict=True), (layer.geometry, pa.binary())])
 
     def fitting() -> Iterator[pa.Table]:
         for table in tables():
             *columns, wkb = table.columns
+            columns = columns[: len(names)]
+            if target.driver != PARQUET:
+                columns = [stored(column) for column in columns]
             wkb = fitted(wkb, wanted)
-            whole = pa.table([*columns[: len(names)], wkb], schema=schema)
+            whole = pa.table([*columns, wkb], schema=schema)
             yield whole.filter(pc.is_valid(wkb)) if target.is_drawing else whole
 
     if target.driver == PARQUET:
