@@ -109,3 +109,92 @@ def test_short_gaps_and_strays_are_passed_over() -> None:
     cut = cut_of(np.vstack([pipe(lambda x, y: (abs(x - 8.0) > 0.2) | (y < 0.0)), strays]))
     curve = minimal_radii(cut.strip, ends="caps", centring="symmetric")
     assert np.abs(np.array(cut.in_space(curve.line).coords)[:, 1]).max() < 0.003
+
+
+RADIUS, LEAD, CORE = 6.0, 2.5, 2.0  # of a bent pipe, of what is straight before and after, its ends
+
+
+def bent_pipe(degrees: float, density: int, clutter: float) -> tuple[Floats, shapely.LineString]:
+    """Level section of a pipe 2 wide that bends, with lamps and loose points in it; its axis."""
+    random = np.random.default_rng(int(degrees) + density)
+    arc = RADIUS * np.radians(degrees)
+    length = arc + 2.0 * LEAD
+
+    def at(s: Floats, d: Floats) -> Floats:
+        on_arc = np.clip(s - LEAD, 0.0, arc) / RADIUS
+        beyond = (s - LEAD) - on_arc * RADIUS
+        x = (RADIUS - d) * np.sin(on_arc) + beyond * np.cos(on_arc)
+        y = RADIUS - (RADIUS - d) * np.cos(on_arc) + beyond * np.sin(on_arc)
+        return np.column_stack([x, y])
+
+    n = int(density * length)
+    parts = [at(random.uniform(0.0, length, n), w + random.normal(0.0, 0.005, n)) for w in (-1, 1)]
+    loose = int(clutter * n)
+    parts.append(at(random.uniform(0.0, length, loose), random.uniform(-0.9, 0.9, loose)))
+    for place, side in random.uniform([0.0, -0.6], [length, 0.6], (5, 2)):
+        around = random.normal([place, side], [0.1, 0.05], (loose // 5, 2))
+        parts.append(at(*around.T))
+    flat = np.vstack(parts)
+    heights = random.uniform(-0.02, 0.02, len(flat))
+    axis = at(np.linspace(0.0, length, 5000), np.zeros(5000))
+    return np.column_stack([flat, heights]), shapely.LineString(axis)
+
+
+def off_axis(degrees: float, density: int, clutter: float) -> float:
+    """How far the axis of a bent pipe is off, away from its ends."""
+    points, true = bent_pipe(degrees, density, clutter)
+    cut = section(points, (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25)
+    curve = minimal_radii(cut.strip, ends="caps", centring="symmetric")
+    axis = shapely.points(shapely.get_coordinates(cut.in_space(curve.line)))
+    s = true.project(axis)
+    assert np.ptp(s) > true.length - CORE
+    inner = (s > CORE) & (s < true.length - CORE)
+    return float(shapely.distance(true, axis)[inner].max())
+
+
+@pytest.mark.parametrize(
+    ("density", "clutter"), [(50, 0.0), (50, 0.02), (200, 0.0), (200, 0.1), (2000, 0.1)]
+)
+@pytest.mark.parametrize("degrees", [0, 30, 90, 180, 260])
+def test_axis_of_a_bent_pipe_is_right_with_clutter_in_it(
+    degrees: int, density: int, clutter: float
+) -> None:
+    assert off_axis(degrees, density, clutter) < 0.003
+
+
+@pytest.mark.parametrize(("density", "bound"), [(10, 0.1), (50, 0.003)])
+@pytest.mark.parametrize("degrees", [0, 30, 90, 180, 260])
+def test_few_points_with_clutter_give_an_axis_or_are_refused(
+    degrees: int, density: int, bound: float
+) -> None:
+    try:
+        off = off_axis(degrees, density, 0.1)
+    except ParameterError:
+        return
+    assert off < bound
+
+
+@pytest.mark.parametrize("along", [(1, 0, 0), (-1, 0, 0)])
+def test_main_has_the_other_wall_where_u_grows(along: tuple[int, int, int]) -> None:
+    points, _ = bent_pipe(0, 200, 0.0)
+    cut = section(points, (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25, along=along)
+    (u, v), (other_u, _) = (np.array(wall.coords).T for wall in (cut.main, cut.auxiliary))
+    assert u.max() < other_u.min()
+    assert (np.diff(v) > 0.0).all()
+
+
+def test_two_pipes_beside_each_other_are_refused() -> None:
+    points, _ = bent_pipe(0, 200, 0.0)
+    with pytest.raises(ParameterError, match="50% of the section's points lie on neither"):
+        section(
+            np.vstack([points, points + np.array([0.0, 4.0, 0.0])]),
+            (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25,
+        )  # fmt: skip
+
+
+def test_a_wall_with_a_piece_beyond_a_gap_is_refused() -> None:
+    points, _ = bent_pipe(260, 200, 0.0)
+    y, x = points[:, 1], points[:, 0]
+    hole = (x > 5.0) & (np.abs(y - RADIUS) < 0.6)  # in the outer wall and the inner one
+    with pytest.raises(ParameterError):
+        section(points[~hole], (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25)

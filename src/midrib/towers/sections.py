@@ -3,7 +3,8 @@
 plane     through a point, with a normal
 u, v      coordinates in the plane: v along the object, u across it
 slab      points within half a thickness of the plane
-walls     the two bands of points on either side of the middle, each thinned to a curve
+walls     the two bands of points, each thinned to a curve: each followed along itself, or, where
+          they do not hang together, what is on either side of the middle
 
            main . : . . : . : . .
                                        v -->
@@ -13,12 +14,14 @@ walls     the two bands of points on either side of the middle, each thinned to 
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+import shapely
 from shapely import LineString
 
 from midrib.checks import is_number, shown
 from midrib.errors import ParameterError
 from midrib.strip import Strip
 from midrib.towers.cloud import ArrayCloud, Cloud
+from midrib.towers.following import follow_walls
 from midrib.towers.thinning import Thinning, thinned_wall
 
 if TYPE_CHECKING:
@@ -33,6 +36,8 @@ BINS = 100  # along the object, in which the middle is looked for
 SMOOTH = 7  # bins over which the middle is a running median
 BROKEN = 0.25  # of the usual gap between the walls: with less there are no two of them
 LONG = 2.0  # intervals: walls are carried on over shorter gaps
+BAND, LEAST_OF_BAND = 0.1, 3  # share of the points of a bin, and points: fewer are strays
+OTHERS = 0.15  # share of the points that may be no wall's
 STRAY = 0.01  # share of the points of a bin on either side that may be strays
 
 
@@ -40,7 +45,7 @@ class Section(NamedTuple):
     """A section of a cloud in the coordinates of its plane."""
 
     points: "Floats"  # (n, 2) u and v of the slab's points
-    main: LineString  # wall with the lesser u
+    main: LineString  # wall with the lesser u, where the object runs along v
     auxiliary: LineString
     origin: "Floats"  # (3,) where u and v are 0
     across: "Floats"  # (3,) direction of u
@@ -81,8 +86,8 @@ def section(
     interval : float
         Distance of the curves' vertices.
     along : array_like, shape (3,), optional
-        Direction of the object, which the walls follow; that in which the section extends most
-        unless given. Walls must not turn back along it.
+        Direction of v; that in which the section extends most unless given. Main is the wall with
+        the lesser u where the object runs along it. Walls in pieces must not turn back along it.
     thinning : {"moving-least-squares", "average-depth"}, default "moving-least-squares"
         How bands of points become curves.
     radius : float, optional
@@ -96,13 +101,15 @@ def section(
     Raises
     ------
     ParameterError
-        If a length is not above 0, the normal is none, or there are no two walls, somewhere over
-        more than two intervals.
+        If a length is not above 0, the normal is none, there are no two walls, somewhere over more
+        than two intervals, or more than 15 % of the points lie on neither.
 
     Notes
     -----
-    The middle is the running median of what halves the points' range bin by bin, a percent of
-    strays on either side left out. O(n) for the cut, O(k log k) for the k points in it.
+    Walls are what hangs together, cell by cell; bends may turn by any angle, and what stands apart
+    from them is left out. Where that makes no two walls, they are on either side of the middle: the
+    running median of what halves the points' range bin by bin, a percent of strays on either side
+    left out. O(n) for the cut, O(k log k) for the k points in it.
 
     Examples
     --------
@@ -132,16 +139,34 @@ def section(
     v_axis = direction(v_axis - (v_axis @ n) * n, "along, in the plane,")
     u_axis = np.cross(v_axis, n)
     points = np.column_stack([(flat - origin) @ u_axis, (flat - origin) @ v_axis])
+    radius = radius or interval / 2.0
+    walls = follow_walls(points, thinning, interval, radius)
+    walls = walls or walls_beside_middle(points, thinning, interval, radius)
+    main, auxiliary = (LineString(wall) for wall in walls)
+    check_result(points, main, auxiliary, interval)
+    return Section(points, main, auxiliary, origin, u_axis, v_axis)
+
+
+def walls_beside_middle(
+    points: "Floats", thinning: Thinning, interval: float, radius: float
+) -> "list[Floats]":
+    """Curves through what is on either side of the middle, where walls do not turn back along v.
+
+    Raises
+    ------
+    ParameterError
+        If there are no two walls.
+    """
     check_walls(points, interval)
     is_main = below_middle(points)
     walls = []
     for rows in (is_main, ~is_main):
-        wall = thinned_wall(points[rows], thinning, interval, radius or interval / 2.0)
+        wall = thinned_wall(points[rows], thinning, interval, radius)
         if len(wall) < 2:
             msg = f"the section has no two walls: one of {int(rows.sum())} points is no curve"
             raise ParameterError(msg)
-        walls.append(LineString(wall))
-    return Section(points, walls[0], walls[1], origin, u_axis, v_axis)
+        walls.append(wall)
+    return walls
 
 
 def vector(value: object, name: str) -> "Floats":
@@ -211,21 +236,60 @@ def check_walls(points: "Floats", interval: float) -> None:
         If the gap is gone for longer than walls are carried on over it.
     """
     place, ends = in_bins(points)
-    gap = np.zeros(ends.size - 1)
+    gap, across = np.zeros(ends.size - 1), [np.zeros(0)] * (ends.size - 1)
     for b in np.unique(place):
-        u = np.sort(points[place == b, 0])
-        gap[b] = np.diff(u).max(initial=0.0)
+        across[b] = np.sort(points[place == b, 0])
+        gap[b] = np.diff(across[b]).max(initial=0.0)
     usual = running_median(gap, gap.size // 4 * 2 + 1)
-    broken = np.flatnonzero(gap < BROKEN * usual)
-    runs = np.split(broken, np.flatnonzero(np.diff(broken) > 1) + 1)
-    for run in runs if broken.size else []:
-        first, last = float(ends[run[0]]), float(ends[run[-1] + 1])
-        if last - first > LONG * interval:
-            msg = (
-                f"the section has no two walls with nothing between them from {first:,.2f} to "
-                f"{last:,.2f} along it, seen from point: expected both, or a cut in two parts"
-            )
-            raise ParameterError(msg)
+    bands = np.array([bands_of(u, BROKEN * least) for u, least in zip(across, usual, strict=True)])
+    for is_wrong, found in (
+        (gap < BROKEN * usual, "no two walls with nothing between them"),
+        (bands > 2, "more than two bands of points beside each other"),
+    ):
+        wrong = np.flatnonzero(is_wrong)
+        runs = np.split(wrong, np.flatnonzero(np.diff(wrong) > 1) + 1)
+        for run in runs if wrong.size else []:
+            first, last = float(ends[run[0]]), float(ends[run[-1] + 1])
+            if last - first > LONG * interval:
+                msg = (
+                    f"the section has {found} from {first:,.2f} to {last:,.2f} along it, seen from "
+                    "point: expected both walls and nothing else, or a cut in two parts"
+                )
+                raise ParameterError(msg)
+
+
+def check_result(
+    points: "Floats", main: LineString, auxiliary: LineString, interval: float
+) -> None:
+    """Refuse walls that cross, or that have too few of the section's points beside them.
+
+    Raises
+    ------
+    ParameterError
+        If they do, or more than strays and clutter are farther off than an interval.
+    """
+    ring = shapely.Polygon([*main.coords, *auxiliary.coords[::-1]])
+    if not ring.is_valid:
+        msg = (
+            f"the walls of the section cross ({shapely.is_valid_reason(ring)} in u and v): "
+            "expected more points, a larger interval, or a cut in parts"
+        )
+        raise ParameterError(msg)
+    where = shapely.points(points)
+    away = np.minimum(shapely.distance(main, where), shapely.distance(auxiliary, where))
+    share = float((away > interval).mean())
+    if share > OTHERS:
+        msg = (
+            f"{share:.0%} of the section's points lie on neither of two walls, expected at most "
+            f"{OTHERS:.0%}: a cut in parts, a larger thickness, or fewer things between the walls"
+        )
+        raise ParameterError(msg)
+
+
+def bands_of(u: "Floats", gap: float) -> int:
+    """How many bands values in order make, of a tenth of them at least, with such gaps between."""
+    sizes = [len(band) for band in np.split(u, np.flatnonzero(np.diff(u) > gap) + 1)]
+    return sum(size >= max(BAND * u.size, LEAST_OF_BAND) for size in sizes)
 
 
 def below_middle(points: "Floats") -> "Bools":
