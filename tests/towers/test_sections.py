@@ -198,3 +198,22 @@ def test_a_wall_with_a_piece_beyond_a_gap_is_refused() -> None:
     hole = (x > 5.0) & (np.abs(y - RADIUS) < 0.6)  # in the outer wall and the inner one
     with pytest.raises(ParameterError):
         section(points[~hole], (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25)
+
+
+@pytest.mark.parametrize("degrees", [30, 90, 180])
+def test_few_points_are_looked_at_more_coarsely(degrees: int) -> None:
+    assert off_axis(degrees, 10, 0.0) < 0.05
+
+
+def test_gaps_that_coarse_cells_pass_over_are_refused() -> None:
+    points, _ = bent_pipe(0, 200, 0.0)
+    hole = (np.abs(points[:, 0]) < 0.6) & (points[:, 1] > 0.0)
+    with pytest.raises(ParameterError, match="no two walls"):
+        section(points[~hole], (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25)
+
+
+def test_a_piece_of_both_walls_beyond_a_gap_is_not_left_out() -> None:
+    points, _ = bent_pipe(0, 200, 0.0)
+    hole = np.abs(points[:, 0] - 1.1) < 0.5
+    with pytest.raises(ParameterError, match="no two walls"):
+        section(points[~hole], (0, 0, 0), (0, 0, 1), thickness=0.1, interval=0.25)
