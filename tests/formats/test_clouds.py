@@ -202,9 +202,13 @@ def test_heights_of_a_las_file_in_an_unknown_unit_are_refused(tmp_path: Path) ->
 BROKEN = {
     "missing": ("a.las", None, "does not exist"),
     "ending": ("a.docx", b"x", "ends in '.docx', expected .las, .laz"),
-    "las": ("a.las", b"LASF" + bytes(20), "cannot be read"),
-    "no_las": ("a.laz", b"hello", "cannot be read"),
-    "no_e57": ("a.e57", b"hello" * 99, "cannot be read"),
+    "las": ("a.las", b"LASF" + bytes(20), "breaks off after 24 bytes, the header alone has 227"),
+    "no_las": ("a.laz", b"hello", "begins with b'hell', expected b'LASF', as .laz files do"),
+    "empty_las": ("a.las", b"", "is empty, expected points"),
+    "no_e57": ("a.e57", b"hello" * 99, "begins with b'hellohel', expected b'ASTM-E57'"),
+    "empty_e57": ("a.e57", b"", "is empty, expected points"),
+    "empty_ply": ("a.ply", b"", "is empty, expected points"),
+    "empty_npy": ("a.npy", b"", "is empty, expected points"),
     "no_ply": ("a.ply", b"hello", "it is no PLY file"),
     "ply_short": (
         "a.ply",
@@ -220,7 +224,8 @@ BROKEN = {
     ),
     "words": ("a.txt", b"once upon a time\nthere was\n", "no line with three numbers"),
     "word": ("a.csv", b"1.0,2.0,3.0\n1.0,oops,3.0\n", "has 'oops' for a coordinate"),
-    "empty": ("a.xyz", b"", "no line with three numbers"),
+    "empty": ("a.xyz", b"", "is empty, expected points"),
+    "blank": ("a.xyz", b"\n \n", "no line with three numbers"),
     "npy": ("a.npy", b"hello", "cannot be read"),
     "no_npz": ("a.npz", b"hello", "cannot be read"),
 }
@@ -238,6 +243,24 @@ def test_broken_files_are_told_in_a_sentence(case: str, tmp_path: Path) -> None:
         list(open_cloud(path).chunks())
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("share", [0.2, 0.5, 0.99])
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("a.las", r"breaks off after [\d,]+ of \d"),
+        ("a.laz", r"breaks off after [\d,]+ bytes, more"),
+    ],
+)
+def test_files_that_break_off_say_where(
+    name: str, sentence: str, share: float, tmp_path: Path
+) -> None:
+    las(tmp_path / name)
+    whole = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(whole[: max(int(share * len(whole)), 400)])
+    with pytest.raises(ParameterError, match=sentence):
+        open_cloud(tmp_path / name)
 
 
 def test_arrays_of_another_shape_are_refused(tmp_path: Path) -> None:

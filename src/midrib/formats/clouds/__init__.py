@@ -47,6 +47,9 @@ def open_cloud(path: str | Path) -> "Cloud":
         found = "is a folder" if path.is_dir() else "does not exist"
         msg = f"CLOUD {str(path)!r} {found}, expected a file of points"
         raise ParameterError(msg)
+    if path.stat().st_size == 0:
+        msg = f"CLOUD {str(path)!r} is empty, expected points"
+        raise ParameterError(msg)
     if path.suffix.lower() not in ENDINGS:
         msg = f"CLOUD {str(path)!r} ends in {path.suffix!r}, expected {', '.join(ENDINGS)}"
         raise ParameterError(msg)

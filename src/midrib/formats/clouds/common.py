@@ -6,7 +6,7 @@ from pathlib import Path
 
 from midrib.errors import MidribError, ParameterError
 
-__all__ = ["STATIONS", "refusing"]
+__all__ = ["STATIONS", "check_signature", "refusing"]
 
 # What a column that tells the station is called.
 STATIONS = ("station", "station_id", "scan", "scan_id", "scanner", "point_source_id", "source_id")
@@ -33,3 +33,24 @@ def refusing(path: Path, *errors: type[Exception]) -> Iterator[None]:
             reason += f"{path.suffix.lower()} file?"
         msg = f"CLOUD {str(path)!r} cannot be read: {reason}"
         raise ParameterError(msg) from error
+
+
+def check_signature(path: Path, signature: bytes, least: int) -> None:
+    """Refuse a file that does not begin as its format does, or that is shorter than a header.
+
+    Raises
+    ------
+    ValueError
+        With what it begins with instead; to be called where ``refusing`` looks.
+    """
+    size = path.stat().st_size
+    with path.open("rb") as file:
+        found = file.read(len(signature))
+    ending = path.suffix.lower()
+    if found != signature:
+        msg = f"it begins with {found!r}, expected {signature!r}, as {ending} files do"
+    elif size < least:
+        msg = f"it breaks off after {size} bytes, the header alone has {least}"
+    else:
+        return
+    raise ValueError(msg)

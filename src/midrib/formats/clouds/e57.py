@@ -12,7 +12,7 @@ import numpy as np
 
 from midrib.checks import check_library
 from midrib.errors import ParameterError
-from midrib.formats.clouds.common import refusing
+from midrib.formats.clouds.common import check_signature, refusing
 from midrib.towers.cloud import CHUNK, InOrder
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 __all__ = ["E57Cloud"]
 
+SIGNATURE, LEAST_HEADER = b"ASTM-E57", 48  # bytes
 # Coordinates of points, and what is 0 where these mean something.
 CARTESIAN = (("cartesianX", "cartesianY", "cartesianZ"), "cartesianInvalidState")
 SPHERICAL = (("sphericalRange", "sphericalAzimuth", "sphericalElevation"), "sphericalInvalidState")
@@ -36,7 +37,8 @@ class E57Cloud(InOrder):
         import pye57
 
         self.path, self.name = path, f"CLOUD {str(path)!r}"
-        with refusing(path, pye57.libe57.E57Exception, RuntimeError):
+        with refusing(path, pye57.libe57.E57Exception, RuntimeError, ValueError):
+            check_signature(path, SIGNATURE, LEAST_HEADER)
             file = pye57.E57(str(path))
             self.has_stations = file.scan_count > 1
             self.count = sum(file.get_header(k).point_count for k in range(file.scan_count))

@@ -13,7 +13,7 @@ import numpy as np
 
 from midrib.checks import check_library
 from midrib.errors import ParameterError
-from midrib.formats.clouds.common import refusing
+from midrib.formats.clouds.common import check_signature, refusing
 from midrib.formats.crs import definition
 from midrib.formats.units import horizontal, is_geographic, unit_of, vertical_unit_of
 from midrib.towers.cloud import CHUNK, DOUBLES, spots_in
@@ -30,6 +30,7 @@ VERTICAL_KEY, VERTICAL_UNIT_KEY = 4096, 4099
 UNITS = {9001: 1.0, 9002: 0.3048, 9003: 1200.0 / 3937.0}  # EPSG: metre, foot, US survey foot
 USER_DEFINED = 32767
 STATION = "point_source_id"  # LAS 1.4, 2.6: the file, flight line or station a point is from
+SIGNATURE, LEAST_HEADER = b"LASF", 227  # bytes
 PACKED = 50_000  # points that LAZ packs together, and only together unpacks
 PACKED_LEAST = 20  # bytes: the first point of a pack is not compressed, and none is shorter
 PACKS = 40  # of these, that a sample is taken from
@@ -64,11 +65,15 @@ class LasCloud:
             ValueError,
             RuntimeError,
         )
+        with refusing(path, *self.errors):
+            check_signature(path, SIGNATURE, LEAST_HEADER)
         with refusing(path, *self.errors), laspy.open(path) as reader:
             header = reader.header
             self.count = int(header.point_count)
             if header.are_points_compressed:
                 check_packs(path, header.offset_to_point_data)
+            else:
+                check_records(path, header)
             reference = reference_of(header)
             self.crs, self.metres, self.stretch = *reference[:2], reference.stretch
 
@@ -110,15 +115,29 @@ class LasCloud:
         return table
 
 
-def check_packs(path: Path, start: int) -> None:
-    """Refuse a damaged LAZ file that says it has more packs of points than fit into it.
-
-    The library that unpacks them would ask for their memory, and end the process without it.
+def check_records(path: Path, header: Any) -> None:
+    """Refuse a LAS file that breaks off before its last point.
 
     Raises
     ------
     ValueError
-        If there are too many.
+        With how many points there are.
+    """
+    there = (path.stat().st_size - header.offset_to_point_data) // header.point_format.size
+    if there < header.point_count:
+        msg = f"it breaks off after {max(there, 0):,} of {header.point_count:,} points"
+        raise ValueError(msg)
+
+
+def check_packs(path: Path, start: int) -> None:
+    """Refuse a LAZ file that breaks off, or that says it has more packs of points than fit into it.
+
+    The library that unpacks them would ask for the memory of all, and end the process without it.
+
+    Raises
+    ------
+    ValueError
+        If the table of packs lies behind the file's end, or has too many.
     """
     size = path.stat().st_size
     with path.open("rb") as file:
@@ -127,6 +146,9 @@ def check_packs(path: Path, start: int) -> None:
         if table == -1:  # written at the end, by who could not go back
             file.seek(max(size - 8, 0))
             table = int.from_bytes(file.read(8), "little", signed=True)
+        if table > size - 8:
+            msg = f"it breaks off after {size:,} bytes, more than {table:,} were written"
+            raise ValueError(msg)
         file.seek(max(table, 0) + 4)  # after a version
         packs = int.from_bytes(file.read(4), "little")
     if packs * PACKED_LEAST > size:
