@@ -80,7 +80,7 @@ def tower_axis(
     Returns
     -------
     TowerAxis
-        ``levels``, ``line``, ``summary``, ``kinks``, ``shape``.
+        ``levels``, ``line``, ``summary``, ``kinks``, ``offsets``, ``radius_steps``, ``shape``.
 
     Raises
     ------

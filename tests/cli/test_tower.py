@@ -53,8 +53,9 @@ def test_report_tables_and_drawing_are_written(scan: Path, midrib: Runner, tmp_p
     assert layers == {"MIDRIB_AXIS": 1, "MIDRIB_LEVELS": n, "MIDRIB_HEIGHTS": 2 * len(named)}
     assert set(named) <= {f"{z:.2f}" for z in table["z"].to_pylist()}
     assert len(named) > 1
-    assert set(layer_names(places[3])) == {"axis", "levels", "kinks", "offsets"}
-    assert [len(read_all(places[3], name)[2]) for name in ("kinks", "offsets")] == [0, 0]
+    breaks = ("kinks", "offsets", "radius_steps")
+    assert set(layer_names(places[3])) == {"axis", "levels", *breaks}
+    assert [len(read_all(places[3], name)[2]) for name in breaks] == [0, 0, 0]
     _, attributes, points = read_all(places[4])
     assert len(points) == table.num_rows
     assert shapely.get_z(points).tolist() == attributes["z"].to_pylist()
@@ -76,13 +77,17 @@ def test_files_do_not_bridge_what_was_not_seen(midrib: Runner, tmp_path: Path) -
         assert rises == pytest.approx(0.5)
 
 
-def test_kinks_and_offsets_are_layers_of_points_on_the_axis(midrib: Runner, tmp_path: Path) -> None:
+def test_breaks_are_layers_of_points_on_the_axis(midrib: Runner, tmp_path: Path) -> None:
     tower = Tower(60.0, 2.5, 1.5, kink=4.0, kink_spacing=40.0, offset=0.03, offset_height=20.2)
     points = Scan(tower, count=100_000, noise=(0.002, 0.004), seed=5).points()
+    # Narrower above 50 m: by 3 cm, towards the axis as it is there.
+    (x, y), above = tower.axis([55.0])[0], points[:, 2] > 50.0
+    away = points[above, :2] - [x, y]
+    points[above, :2] -= 0.03 * away / np.hypot(*away.T)[:, None]
     np.save(tmp_path / "a.npy", points)
     midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.gpkg")
     found = tower_axis(points)
-    for name, heights in (("kinks", [40.0]), ("offsets", [20.2])):
+    for name, heights in (("kinks", [40.0]), ("offsets", [20.2]), ("radius_steps", [50.0])):
         _, attributes, places = read_all(tmp_path / "a.gpkg", name)
         told = [tuple(row.values()) for row in attributes.to_pylist()]
         assert told == [tuple(one) for one in getattr(found, name)]

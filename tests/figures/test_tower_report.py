@@ -11,7 +11,7 @@ from midrib.figures.tower_paper import table_sheets
 from midrib.figures.tower_plots import shape_outline
 from midrib.figures.tower_text import Content, headings_of, notes, rows_of_levels, summary_lines
 from midrib.towers.cloud import ArrayCloud
-from midrib.towers.kinks import Kink, Offset
+from midrib.towers.kinks import Kink, Offset, RadiusStep
 from midrib.towers.pipeline import Options, axis_of
 from midrib.towers.records import TowerAxis
 from midrib.towers.simulate import Tower
@@ -122,6 +122,9 @@ def test_kinks_and_offsets_are_drawn_on_the_axis(oval: TowerAxis) -> None:
     assert told(axis, "kinks") == "12 m (2.0 mm/m towards 90°)"
     assert told(axis, "offsets") == "21.2 m (8.0 ± 0.3 mm towards 45°)"
     assert told(oval, "offsets") == "none found"
+    stepped = replace(oval, radius_steps=[RadiusStep(14.0, -0.03, 0.0002)])
+    assert told(stepped, "steps of the radius") == "14.0 m (-30.0 ± 0.2 mm)"
+    assert told(oval, "steps of the radius") == "none found"
     levels = axis.levels[axis.is_answered]
     for index, plot in enumerate(draw_deviation(axis).axes):
         name = "xy"[index]

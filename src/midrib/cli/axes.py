@@ -15,7 +15,7 @@ from midrib.formats.drawing.axes import write_axis_dxf
 from midrib.formats.endings import format_of
 from midrib.formats.units import METRES, length_in
 from midrib.formats.writing import Features, check_free, staged, write_layer
-from midrib.towers.kinks import Kink, Offset
+from midrib.towers.kinks import Kink, Offset, RadiusStep
 from midrib.towers.pipeline import Options
 
 if TYPE_CHECKING:
@@ -94,7 +94,8 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
         return []
     if not target.has_layers:
         return write_layer(path, levels)
-    breaks = breaks_of(axis, "kinks", Kink), breaks_of(axis, "offsets", Offset)
+    kinds = {"kinks": Kink, "offsets": Offset, "radius_steps": RadiusStep}
+    breaks = [breaks_of(axis, name, kind) for name, kind in kinds.items()]
     return [note for layer in (line_of(axis), levels, *breaks) for note in write_layer(path, layer)]
 
 
@@ -121,8 +122,8 @@ def line_of(axis: "TowerAxis") -> Features:
     return Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
 
 
-def breaks_of(axis: "TowerAxis", name: str, kind: "type[Kink | Offset]") -> Features:
-    """Layer ``kinks`` or ``offsets``: points on the axis, none where it has no centre at all.
+def breaks_of(axis: "TowerAxis", name: str, kind: "type[Kink | Offset | RadiusStep]") -> Features:
+    """Layer of breaks of a kind: points on the axis, none where it has no centre at all.
 
     The columns are those of the records, so lengths are in coordinate units and turns in mm per m.
     """

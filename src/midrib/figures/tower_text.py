@@ -60,7 +60,7 @@ def summary_lines(
 
 
 def axis_lines(axis: "TowerAxis") -> list[tuple[str, str]]:
-    """Best line, deviations, uncertainty, kinks and offsets of an axis that there is."""
+    """Best line, deviations, uncertainty, breaks of an axis that there is."""
     s, mm, m = axis.summary, 1e3 / axis.unit, 1.0 / axis.unit
     straight = f"{s.straightness * mm:.1f} mm off the best line at {s.straightness_z * m:.1f} m"
     most = f"{s.deviation * mm:.1f} mm at {s.deviation_z * m:.1f} m"
@@ -70,6 +70,9 @@ def axis_lines(axis: "TowerAxis") -> list[tuple[str, str]]:
         f"{o.z * m:.1f} m ({o.size * mm:.1f} ± {o.sigma * mm:.1f} mm towards {o.azimuth:.0f}°)"
         for o in axis.offsets
     ]
+    steps = [
+        f"{r.z * m:.1f} m ({r.size * mm:+.1f} ± {r.sigma * mm:.1f} mm)" for r in axis.radius_steps
+    ]
     return [
         ("heights", f"{s.low * m:.2f} m to {s.high * m:.2f} m"),
         ("best line", f"leans by {s.slope:.2f} mm/m towards {s.azimuth:.1f}°"),
@@ -78,6 +81,7 @@ def axis_lines(axis: "TowerAxis") -> list[tuple[str, str]]:
         ("sigma of the centre", sigma),
         ("kinks", ", ".join(kinks) or "none found"),
         ("offsets", ", ".join(offsets) or "none found"),
+        ("steps of the radius", ", ".join(steps) or "none found"),
     ]
 
 

@@ -30,7 +30,16 @@ if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.types import Bools, Floats, Ints
 
-__all__ = ["Fit", "fit_cells", "normals_of"]
+__all__ = [
+    "MIXED",
+    "PLIANT",
+    "Fit",
+    "design_of",
+    "fit_cells",
+    "mixed",
+    "normals_of",
+    "variance_left",
+]
 
 KNOTS, OVAL_KNOTS = 2.5, 20.0  # metres: of axis and taper, of ovals
 ROUNDS, CHOOSING = 14, (2, 5)
@@ -49,6 +58,12 @@ class Model(NamedTuple):
     axis: Basis
     taper: Basis
     oval: Basis | None
+
+    @property
+    def smooth(self) -> "Model":
+        """The same without leaps."""
+        axis, taper = (basis._replace(leaps=np.zeros(0)) for basis in (self.axis, self.taper))
+        return Model(axis, taper, self.oval)
 
     @property
     def ends(self) -> "Ints":
@@ -127,6 +142,12 @@ class Fit:
         sigma = np.sqrt(np.diag(self.covariance))
         return self.coefficients[rows], sigma[rows]
 
+    def steps(self) -> "tuple[Floats, Floats]":
+        """Sizes (m,) of the steps of the radius, and their standard deviations."""
+        last, m = self.model.ends[2], len(self.model.taper.leaps)
+        rows = slice(last - m, last)
+        return self.coefficients[rows], np.sqrt(np.diag(self.covariance)[rows])
+
     def oval(self, s: "Floats") -> "Floats":
         """Coefficients e and f (n, 2) at heights; zero if the model is round."""
         if self.model.oval is None:
@@ -169,11 +190,13 @@ def fit_cells(
     *,
     is_oval: bool = False,
     leaps: "Floats | tuple[float, ...]" = (),
+    steps: "Floats | tuple[float, ...]" = (),
     rough: bool = False,
 ) -> Fit:
     """Fit axis and taper to cells; a ``rough`` fit has the usual stiffnesses and no covariance.
 
-    At the heights ``leaps`` the axis leaps; cells that are partly below one hardly count.
+    At the heights ``leaps`` the axis leaps, at ``steps`` the radius; cells that are partly below
+    one hardly count.
 
     Notes
     -----
@@ -186,7 +209,7 @@ def fit_cells(
     spacing = max(KNOTS * unit, 2.0 * cells.grid.level)
     model = Model(
         basis_on(low, high, spacing, leaps),
-        basis_on(low, high, spacing),
+        basis_on(low, high, spacing, steps),
         basis_on(low, high, OVAL_KNOTS * unit) if is_oval else None,
     )
     design, known = design_of(cells, model)
@@ -196,8 +219,7 @@ def fit_cells(
     known = known - design @ straight
     normal_of_cell, off_corner = normals_of(cells)
     prior = (off_corner & ~grazed(cells, unit)).astype(np.float64)
-    for leap in leaps:
-        prior[np.abs(cells.s - leap) <= cells.grid.level / 2.0] *= MIXED
+    prior[mixed(cells, model)] *= MIXED
     variance, stiffness = 1.0, (USUAL[0] * unit**3, USUAL[1] * unit**3)
     weight: Floats = prior
     residual: Floats = known
@@ -227,6 +249,13 @@ def fit_cells(
         covariance = factor_of(told).solve(np.eye(len(told)))
     whole = straight + bends
     return Fit(model, whole, covariance, weight, residual, stiffness, bends, variance)
+
+
+def mixed(cells: "Cells", model: Model) -> "Bools":
+    """Which cells are partly below a leap."""
+    leaps = np.concatenate([model.axis.leaps, model.taper.leaps])
+    found: Bools = (np.abs(cells.s[:, None] - leaps) <= cells.grid.level / 2.0).any(axis=1)
+    return found
 
 
 def chosen_by_turns(

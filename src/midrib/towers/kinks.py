@@ -1,34 +1,29 @@
-"""Kinks and offsets: heights at which the axis turns, or leaps, as no smooth curve does.
+"""Kinks, offsets and steps: heights at which the axis turns, or leaps, or the radius does.
 
-An axis that bends smoothly near by is pliant anyway and gains little by a hinge; one that is
-straight on either side of a kink gains much, for without the hinge all of it has to be pliant. The
-best of all hinges and leaps, by evidence, is taken in and the search goes on beside it; in the end
-each has to be certain beside all others.
+No smooth curve does any of them. The joint fit follows leaps; all else near them it would take for
+errors of the wall.
 """
 
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from midrib.towers.evidence import Problem, Trials, gain_of, problem_of, trials_between
+from midrib.towers.evidence import problem_of, trials_of
+from midrib.towers.search import chosen_of, gain_beside
 from midrib.towers.summary import azimuth_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
     from midrib.towers.joint import Fit
-    from midrib.types import Floats, Ints
+    from midrib.types import Floats
 
-__all__ = ["Breaks", "Kink", "Offset", "breaks_of", "offsets_of"]
+__all__ = ["Breaks", "Kink", "Offset", "RadiusStep", "breaks_of", "offsets_of", "steps_of"]
 
-END, APART = 5.0, 5.0  # metres from either end, and between breaks, at the least
-SEARCHED = 2  # every second hinge is tried at first
-CERTAIN = 24.0  # fall of -2 log L: by chance once in 1000 towers of 100 m, bends aside
-WORTH = 10.0  # the same, to be taken in for a trial: kinks hide each other till all are in
+END, APART = 5.0, 5.0  # metres from either end, and between breaks of the axis, at the least
+RING = 2  # levels: the same for the wall around it, as a flange has two steps
 LEAST_KINK = 2e-4  # change of direction: less is nothing, however certain
-LEAST_OFFSET = 1e-3  # metres: the same
-SUDDEN = 0.25  # of what the axis turns by from 2.5 m below to 2.5 m above: less is a bend's
-FEW = 20  # breaks: an axis with more is no axis with kinks
-MENDED = 3.0  # metres: a break may move so far once its neighbours are known
+LEAST_LEAP = 1e-3  # metres: the same, of the axis or of the radius
+NEAR, SUDDEN = 2.5, 0.25  # metres below and above; of what bends near by: less is a part of that
 
 
 class Kink(NamedTuple):
@@ -49,38 +44,62 @@ class Offset(NamedTuple):
     sigma: float
 
 
+class RadiusStep(NamedTuple):
+    """A step of the radius, all round; lengths in coordinate units."""
+
+    z: float
+    size: float  # above 0 where what is above is wider
+    sigma: float
+
+
 class Breaks(NamedTuple):
-    """What is not smooth about an axis, from the base up."""
+    """What is not smooth about an axis and the wall around it, from the base up."""
 
     kinks: list[Kink]
     leaps: "Floats"  # heights of the frame at which there are offsets
+    steps: "Floats"  # heights of the frame at which the radius steps
+
+    def are_in(self, fit: "Fit") -> bool:
+        """Whether a fit leaps where these do, and nowhere else."""
+        model = fit.model
+        return np.array_equal(self.leaps, model.axis.leaps) and np.array_equal(
+            self.steps, model.taper.leaps
+        )
 
 
 def breaks_of(cells: "Cells", fit: "Fit", unit: float) -> Breaks:
-    """Find the kinks and offsets of an axis beside the leaps that its fit has.
+    """Find the kinks, offsets and steps of a tower, whether or not its fit has them.
 
     Notes
     -----
     Forward selection, then each break once more given the others; those that are not certain beside
     the others go. O(q m n) for q breaks, m heights that are tried and n cells.
     """
-    low, high = float(cells.s.min()) + END * unit, float(cells.s.max()) - END * unit
-    if high <= low:
-        return Breaks([], np.zeros(0))
-    trials = trials_between(cells, low, high, APART * unit, unit).beside(fit.model.axis.leaps)
+    if np.ptp(cells.s) <= 2.0 * END * unit:
+        return Breaks([], np.zeros(0), np.zeros(0))
+    ring = RING * cells.grid.level
+    trials = trials_of(cells, (ring, END * unit), (ring, APART * unit), unit)
     problem = problem_of(cells, fit, unit)
     chosen = chosen_of(problem, trials, unit)
-    kinks, leaps = [], []
-    for k in sorted(range(len(chosen)), key=lambda k: trials.heights[chosen[k]]):
-        others = chosen[:k] + chosen[k + 1 :]
-        gain = gain_of(beside(problem, trials, others), [trials.columns[chosen[k]]])
-        s, size = float(trials.heights[chosen[k]]), float(np.hypot(*gain.size[0]))
-        if trials.is_leap[chosen[k]]:
-            leaps += [s] * (size > LEAST_OFFSET * unit)
+    chosen.sort(key=lambda i: float(trials.heights[i]))
+    gains = [
+        gain_beside(problem, trials, i, chosen[:k] + chosen[k + 1 :]) for k, i in enumerate(chosen)
+    ]
+    kinks, leaps, steps, batters = [], [], [], []
+    for i, gain in zip(chosen, gains, strict=True):
+        s, size = float(trials.heights[i]), float(np.linalg.norm(gain.size[0]))
+        kind = trials.kinds[i]
+        if kind == "batter":
+            batters.append((s, size))
+        elif kind == "step":
+            steps.append((s, size))
+        elif kind == "offset":
+            leaps += [s] * (size > LEAST_LEAP * unit)
         elif size > least_turn(fit, s, unit):
             azimuth, sigma = towards(cells, gain.size[0]), 1e3 * float(gain.sigma[0])
             kinks.append(Kink(height_of(cells, fit, s), 1e3 * size, azimuth, sigma))
-    return Breaks(kinks, np.array(leaps))
+    sudden = [s for s, size in steps if size > least_step(batters, s, unit)]
+    return Breaks(kinks, np.array(leaps), np.array(sudden))
 
 
 def offsets_of(cells: "Cells", fit: "Fit") -> list[Offset]:
@@ -96,6 +115,14 @@ def offsets_of(cells: "Cells", fit: "Fit") -> list[Offset]:
     ]
 
 
+def steps_of(cells: "Cells", fit: "Fit") -> list[RadiusStep]:
+    """Tell the steps of a radius."""
+    return [
+        RadiusStep(height_of(cells, fit, s), float(size), float(sigma))
+        for s, size, sigma in zip(fit.model.taper.leaps, *fit.steps(), strict=True)
+    ]
+
+
 def height_of(cells: "Cells", fit: "Fit", s: float) -> float:
     """Height z of the axis at a height of the frame."""
     place = np.array([[*fit.values(np.array([s]))[0, :2], s]])
@@ -107,59 +134,13 @@ def towards(cells: "Cells", change: "Floats") -> float:
     return float(azimuth_of(*(change @ cells.reference.frame.turn[:2, :2])))
 
 
-def chosen_of(problem: Problem, trials: Trials, unit: float) -> list[int]:
-    """Find the hinges and leaps that are certain, each beside all others."""
-    each = np.arange(trials.heights.size)
-    some = np.concatenate([each[~trials.is_leap][::SEARCHED], each[trials.is_leap]])
-    chosen: list[int] = []
-    while len(chosen) < FEW:
-        best, fall = best_of(problem, trials, trials.free(some, chosen), chosen)
-        if fall < WORTH:
-            break
-        chosen.append(best)
-    for k, place in enumerate(chosen):
-        others = chosen[:k] + chosen[k + 1 :]
-        near = each[np.abs(trials.heights - trials.heights[place]) <= MENDED * unit]
-        chosen[k], _ = best_of(problem, trials, trials.free(near, others), others)
-    while chosen:
-        falls = [
-            best_of(problem, trials, np.array([i]), chosen[:k] + chosen[k + 1 :])[1]
-            for k, i in enumerate(chosen)
-        ]
-        if min(falls) >= CERTAIN:
-            break
-        del chosen[int(np.argmin(falls))]
-    return chosen
-
-
-def best_of(problem: Problem, trials: Trials, free: "Ints", chosen: list[int]) -> tuple[int, float]:
-    """Find which of the free trials makes -2 log L fall most beside the chosen ones.
-
-    Returns its number and its own part of that; those whose own part is worth nothing come last.
-    """
-    problem = beside(problem, trials, chosen)
-    fall, own = np.full(free.size, -np.inf), np.zeros(free.size)
-    for is_leap in (False, True):
-        rows = trials.is_leap[free] == is_leap
-        if rows.any():
-            gain = gain_of(problem, [trials.columns[i] for i in free[rows]])
-            fall[rows], own[rows] = gain.fall, gain.own
-    if not free.size:
-        return -1, 0.0
-    best = int(np.argmax(np.where(own >= WORTH, fall, own - WORTH)))
-    return int(free[best]), float(own[best])
-
-
-def beside(problem: Problem, trials: Trials, chosen: list[int]) -> Problem:
-    """Return the problem with what is chosen in its design."""
-    return (
-        problem.beside(np.concatenate([trials.columns[j] for j in chosen], axis=1))
-        if chosen
-        else problem
-    )
-
-
 def least_turn(fit: "Fit", s: float, unit: float) -> float:
     """Change of direction that a kink at a height has at the least: less is a bend's."""
-    near = s + APART * unit / 2.0 * np.array([-1.0, 1.0])
+    near = s + NEAR * unit * np.array([-1.0, 1.0])
     return max(LEAST_KINK, SUDDEN * float(np.hypot(*np.diff(fit.slopes(near), axis=0)[0])))
+
+
+def least_step(batters: list[tuple[float, float]], s: float, unit: float) -> float:
+    """Step of the radius that there is at the least: less is a part of a turn of the batter."""
+    turn = sum(turn for at, turn in batters if abs(at - s) <= APART * unit)
+    return max(LEAST_LEAP, SUDDEN * NEAR * turn) * unit

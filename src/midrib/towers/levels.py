@@ -229,6 +229,9 @@ def flags_of(
     for leap, offset in zip(shell.fit.model.axis.leaps, shell.fit.leaps()[0], strict=True):
         size = 1e3 * float(np.hypot(*offset)) / shell.unit
         mark(answered & (np.abs(s - leap) <= reach), f"offset of {size:.1f} mm near by")
+    for step, size in zip(shell.fit.model.taper.leaps, shell.fit.steps()[0], strict=True):
+        text = f"step of the radius by {1e3 * size / shell.unit:.1f} mm near by"
+        mark(answered & (np.abs(s - step) <= reach), text)
     mark(answered & (levels["residual"] > ROUGH * usual), "rough")
     return flags
 

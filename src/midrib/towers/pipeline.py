@@ -19,7 +19,7 @@ from midrib.towers.cloud import Cloud, Tally, check_spacing, sample_of
 from midrib.towers.faces import rough_polygon
 from midrib.towers.gate import bands_of, shape_of, steady
 from midrib.towers.joint import Fit, fit_cells
-from midrib.towers.kinks import Kink, breaks_of, offsets_of
+from midrib.towers.kinks import Kink, breaks_of, offsets_of, steps_of
 from midrib.towers.levels import levels_of
 from midrib.towers.oblong import Oval, oval_of
 from midrib.towers.records import Shape, TowerAxis
@@ -46,6 +46,7 @@ MOST_OVAL, MOST_OVALITY = 0.92, 0.15
 MOVED = 2e-4  # metres: fine cells are counted anew if their reference was off by more
 MOVED_SHARE = 0.2  # of the residuals: less makes no difference to what the noise leaves
 MOST_PASSES = 3
+SEARCHES = 5  # for breaks, each beside those that the last one found
 LEAST_HEIGHT = 0.05  # metres: less is a floor
 HIGHEST = 1000.0  # metres: no tower is higher, but its millimetres are
 MOST_LEVELS = 100_000  # a centimetre apart in the highest tower
@@ -164,6 +165,7 @@ def axis_of(cloud: Cloud, options: Options, track: Track = untracked) -> TowerAx
         labels=shell.labels,
         kinks=shell.kinks,
         offsets=offsets_of(shell.cells, fit),
+        radius_steps=steps_of(shell.cells, fit),
         residual=fit.residual,
         used=fit.weight > 0.0,
         steps=steps,
@@ -370,10 +372,11 @@ def gated(
     left = bands_of(cells, fit.residual, fit.weight, unit) if is_oval else bands
     shape = steady(shape, left, unit, excused)
     breaks = breaks_of(cells, fit, unit)
-    # An offset that the axis smooths counts as an error of the wall, in which kinks drown.
-    while breaks.leaps.size:
-        leaps = np.sort(np.concatenate([fit.model.axis.leaps, breaks.leaps]))
-        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=leaps)
+    # A leap that a fit smooths counts as an error of the wall, in which other breaks drown.
+    for _ in range(SEARCHES):
+        if breaks.are_in(fit):
+            break
+        fit = fit_cells(cells, unit, is_oval=is_oval, leaps=breaks.leaps, steps=breaks.steps)
         breaks = breaks_of(cells, fit, unit)
     low = cells.grid.start + dents * bands.height
     return cells, fit, shape, np.column_stack([low, low + bands.height]), breaks.kinks

@@ -12,7 +12,7 @@ from midrib.towers.summary import Summary, summary_of
 
 if TYPE_CHECKING:
     from midrib.towers.cells import Cells
-    from midrib.towers.kinks import Kink, Offset
+    from midrib.towers.kinks import Kink, Offset, RadiusStep
     from midrib.towers.stations import Station
     from midrib.types import Bools, Floats, Ints
 
@@ -81,6 +81,8 @@ class TowerAxis:
     offsets : list of Offset
         Where it leaps, in the same way: a step between two casting lifts, say. The joint mode's
         axis leaps there too.
+    radius_steps : list of RadiusStep
+        Where the radius leaps, all round, and by how much: above 0 if it is wider above.
     """
 
     levels: "np.ndarray[Any, np.dtype[np.void]]"
@@ -98,6 +100,7 @@ class TowerAxis:
     labels: int = 0
     kinks: "list[Kink]" = field(default_factory=list)
     offsets: "list[Offset]" = field(default_factory=list)
+    radius_steps: "list[RadiusStep]" = field(default_factory=list)
 
     @property
     def is_answered(self) -> "Bools":
