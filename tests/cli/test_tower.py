@@ -85,8 +85,18 @@ def test_breaks_are_layers_of_points_on_the_axis(midrib: Runner, tmp_path: Path)
     away = points[above, :2] - [x, y]
     points[above, :2] -= 0.03 * away / np.hypot(*away.T)[:, None]
     np.save(tmp_path / "a.npy", points)
-    midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.gpkg")
+    midrib("tower", tmp_path / "a.npy", "-o", tmp_path / "a.gpkg", "-o", tmp_path / "a.dxf")
     found = tower_axis(points)
+    drawn = readfile(tmp_path / "a.dxf").modelspace()
+    for layer, words in (
+        ("KINKS", f"kink {found.kinks[0].turn:.1f} mm"),
+        ("OFFSETS", "offset"),
+        ("RADIUS_STEPS", "radius -"),
+    ):
+        (note,) = drawn.query(f'TEXT[layer=="MIDRIB_{layer}"]')
+        (point,) = drawn.query(f'POINT[layer=="MIDRIB_{layer}"]')
+        assert note.dxf.text.startswith(words)
+        assert note.dxf.text.endswith(f"{point.dxf.location.z:.2f}")
     for name, heights in (("kinks", [40.0]), ("offsets", [20.2]), ("radius_steps", [50.0])):
         _, attributes, places = read_all(tmp_path / "a.gpkg", name)
         told = [tuple(row.values()) for row in attributes.to_pylist()]

@@ -11,7 +11,7 @@ from ezdxf.filemanagement import readfile
 from ezdxf.math import BoundingBox
 from shapely import Polygon
 
-from midrib.formats.drawing.axes import PAGE, scale_of, write_axis_dxf
+from midrib.formats.drawing.axes import PAGE, Mark, scale_of, write_axis_dxf
 from midrib.types import Floats
 
 
@@ -60,3 +60,23 @@ def test_the_sheet_is_as_large_as_the_axis_at_scale(tmp_path: Path) -> None:
     layout = document.paperspace("Layout1")
     assert np.array(layout.dxf.limmax)[:2] == pytest.approx(high - low + 0.02)  # 1 : 1, in metres
     assert document.header["$PSVPSCALE"] == 1.0
+
+
+def test_marks_have_layers_points_and_texts_apart_from_heights(tmp_path: Path) -> None:
+    points = axis(0.12, 0.05)
+    marks = [
+        Mark("MIDRIB_KINKS", points[5], "kink 3.2 mm/m at 210.00"),
+        Mark("MIDRIB_OFFSETS", points[5], "offset 31 mm at 210.00"),
+        Mark("MIDRIB_KINKS", points[20], "kink 5.5 mm/m at 240.00"),
+    ]
+    write_axis_dxf(tmp_path / "a.dxf", points, 1.0, (), marks)
+    document = readfile(tmp_path / "a.dxf")
+    assert not document.audit().errors
+    space = document.modelspace()
+    for layer, rows in (("MIDRIB_KINKS", [5, 20]), ("MIDRIB_OFFSETS", [5])):
+        found = space.query(f'POINT[layer=="{layer}"]')
+        assert np.array([p.dxf.location for p in found]) == pytest.approx(points[rows])
+    texts = [text.dxf.text for text in space.query("TEXT") if "HEIGHTS" not in text.dxf.layer]
+    assert texts == [marks[0].text, marks[2].text]  # the one between is in the way
+    boxes = [flat(extents([text])) for text in space.query("TEXT")]
+    assert not any(one.intersects(other) for one, other in combinations(boxes, 2))

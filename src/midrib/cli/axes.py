@@ -11,7 +11,7 @@ from midrib.checks import check_library
 from midrib.cli.tables import write_rows
 from midrib.errors import ParameterError
 from midrib.figures.tower_report import check_report, write_report
-from midrib.formats.drawing.axes import write_axis_dxf
+from midrib.formats.drawing.axes import Mark, write_axis_dxf
 from midrib.formats.endings import format_of
 from midrib.formats.units import METRES, length_in
 from midrib.formats.writing import Features, check_free, staged, write_layer
@@ -90,7 +90,7 @@ def write_axis(path: Path, axis: "TowerAxis") -> list[str]:
         return write_rows(path, levels)
     target = format_of(path)
     if target.is_drawing:
-        write_axis_dxf(path, axis.points, axis.unit, axis.breaks)
+        write_axis_dxf(path, axis.points, axis.unit, axis.breaks, marks_of(axis))
         return []
     if not target.has_layers:
         return write_layer(path, levels)
@@ -120,6 +120,22 @@ def line_of(axis: "TowerAxis") -> Features:
         **{name: pa.array([getattr(s, name)], from_pandas=True) for name in s._fields},
     }
     return Features("axis", pa.table(about), line, "geom", "MultiLineString Z", axis.crs)
+
+
+def marks_of(axis: "TowerAxis") -> list[Mark]:
+    """Kinks, offsets and steps of the radius for a drawing, from the base up; none without axis."""
+    if not len(axis.points):
+        return []
+    metre, milli = 1.0 / axis.unit, 1000.0 / axis.unit
+    found = [
+        *(("KINKS", k.z, f"kink {k.turn:.1f} mm/m") for k in axis.kinks),
+        *(("OFFSETS", o.z, f"offset {milli * o.size:.0f} mm") for o in axis.offsets),
+        *(("RADIUS_STEPS", r.z, f"radius {milli * r.size:+.0f} mm") for r in axis.radius_steps),
+    ]
+    return [
+        Mark(f"MIDRIB_{layer}", axis.at(np.array([z]))[0], f"{text} at {metre * z:.2f}")
+        for layer, z, text in sorted(found, key=lambda mark: mark[1])
+    ]
 
 
 def breaks_of(axis: "TowerAxis", name: str, kind: "type[Kink | Offset | RadiusStep]") -> Features:

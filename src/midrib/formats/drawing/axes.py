@@ -1,11 +1,12 @@
-"""DXF of a tower's axis: lines in space, a point for each level, heights where there is room.
+"""DXF of a tower's axis: lines in space, a point for each level, texts where there is room.
 
 Seen from above, which is how it is plotted, a tower's axis is a short curve: the scale is the
 largest of 1:1, 1:2, 1:5, 1:10 … at which it fits on a page, and a height stands beside its level
-unless that of a lower one is in the way. Seen from the side, levels are where they are.
+unless that of a lower one is in the way; what else is marked has its text on the other side. Seen
+from the side, all is where it is.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,21 +17,37 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from pathlib import Path
 
+    from ezdxf.document import Drawing
+
     from midrib.types import Floats, Ints
 
-__all__ = ["write_axis_dxf"]
+__all__ = ["Mark", "write_axis_dxf"]
 
 LINE, POINTS, HEIGHTS = "MIDRIB_AXIS", "MIDRIB_LEVELS", "MIDRIB_HEIGHTS"  # layers
+MARKED = 6  # magenta, which is seen on black and on white
 PAGE, TEXT, MARK = 150.0, 2.5, 1.0  # millimetres: the axis at most, texts, circles of named levels
 ROOM = np.array([0.8, 1.4])  # of a character, in heights of a text: its width with what is beside
 
 
+class Mark(NamedTuple):
+    """Something that is marked on an axis."""
+
+    layer: str
+    point: "Floats"  # (3,)
+    text: str
+
+
 def write_axis_dxf(
-    path: "Path", points: "Floats", unit: float, breaks: "Ints | Sequence[int]" = ()
+    path: "Path",
+    points: "Floats",
+    unit: float,
+    breaks: "Ints | Sequence[int]" = (),
+    marks: "Sequence[Mark]" = (),
 ) -> None:
     """Write centres (n, 3) of levels, from the base up, with ``unit`` coordinate units in a metre.
 
-    ``breaks`` are the rows at which another polyline begins.
+    ``breaks`` are the rows at which another polyline begins. Every mark has a point and a circle
+    on its layer, and its text unless that of a lower one is in the way.
 
     Raises
     ------
@@ -65,11 +82,34 @@ def write_axis_dxf(
         note = space.add_text(texts[row], height=size, dxfattribs={"layer": HEIGHTS})
         space.add_circle((x, y, z), 0.5 * MARK * millimetre, {"layer": HEIGHTS})
         note.set_placement((x + 0.5 * size, y + below * size, z))
+    add_marks(document, marks, size, MARK * millimetre, 0.5 if rises else -1.5)
     set_extents(document)
     if len(corners):
         low, high = (np.array(document.header[name])[:2] for name in ("$EXTMIN", "$EXTMAX"))
         add_layout(document, low, high, scale, 1.0 / unit)
     document.saveas(path)
+
+
+def add_marks(
+    document: "Drawing", marks: "Sequence[Mark]", size: float, radius: float, below: float
+) -> None:
+    """Add marks with texts of this size to the left of them, so far below or above."""
+    from ezdxf.enums import TextEntityAlignment
+
+    space = document.modelspace()
+    points = np.array([mark.point for mark in marks]).reshape(-1, 3)
+    longest = max((len(mark.text) for mark in marks), default=0)
+    named = with_room(points, size * ROOM * [longest, 1.0])
+    for row, (layer, point, text) in enumerate(marks):
+        if layer not in document.layers:
+            document.layers.add(layer, color=MARKED)
+        x, y, z = np.asarray(point).tolist()
+        space.add_point((x, y, z), {"layer": layer})
+        space.add_circle((x, y, z), radius, {"layer": layer})
+        if row in named:
+            note = space.add_text(text, height=size, dxfattribs={"layer": layer})
+            place = (x - radius - 0.5 * size, y + below * size, z)
+            note.set_placement(place, align=TextEntityAlignment.RIGHT)
 
 
 def scale_of(points: "Floats", unit: float) -> float:
