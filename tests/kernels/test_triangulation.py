@@ -13,12 +13,14 @@ from hypothesis import strategies as st
 from shapely import LineString, Polygon, affinity, box
 
 from midrib.kernels.gathering import gather_inside
-from midrib.kernels.insertion import BLOCK, FACE, coarse_to_fine, insert_all
+from midrib.kernels.insertion import BLOCK, coarse_to_fine, insert_all
 from midrib.kernels.jit import njit
 from midrib.kernels.mesh import Mesh, next_boundary_side
+from midrib.kernels.stars import FACE
 from midrib.kernels.triangulation import force_rings, within_triangle
 from midrib.layout import Boundary, boundary_of
 from midrib.ragged import rings_of_area
+from midrib.types import Ints
 from tests.kernels.calling import callable_from_python
 from tests.shapes import VALID, annulus_sector, stadium
 from tests.strategies import areas, with_holes
@@ -249,10 +251,22 @@ def in_both_ways(x: Any, y: Any, ring_next: Any, by_rings: Any) -> Any:
     n = x.size
     same, touches = np.full(n, -1), np.full(n, -1)
     xy = within_triangle(x, y)
-    face, out = np.empty(FACE * (2 * n + 1), np.int32), np.empty(n + 3, np.uint32)
-    count = insert_all(n, xy, face, out, same)
-    inside = gather_inside(count, ring_next, same, face, by_rings)
+    face, out = np.empty(FACE * (2 * n + 2), np.int32), np.empty(n + 3, np.uint32)
+    count, _ = insert_all(n, xy, ring_next, False, face, out, same)
+    inside = gather_inside(count, ring_next, same, xy, False, face, by_rings)
     return inside, force_rings(count, x, y, xy, ring_next, same, touches, face, out, by_rings)
+
+
+@callable_from_python
+@njit()
+def between_constraints(x: Any, y: Any, ring_next: Any) -> Any:
+    """Whether there are constraints while vertices go in, and what is inside."""
+    n = x.size
+    same, xy = np.full(n, -1), within_triangle(x, y)
+    face, out = np.empty(FACE * (2 * n + 2), np.int32), np.empty(n + 3, np.uint32)
+    count, is_constrained = insert_all(n, xy, ring_next, True, face, out, same)
+    inside = gather_inside(max(count, 0), ring_next, same, xy, True, face, True)
+    return is_constrained and count >= 0, inside
 
 
 def check_both_ways(area: Polygon) -> bool:
@@ -268,6 +282,23 @@ def check_both_ways(area: Polygon) -> bool:
     return bool(inside.is_done)
 
 
+def check_constraints(area: Polygon) -> bool:
+    """Whether constraints were of use; then the triangles are those that are found without."""
+    rings, _ = rings_of_area(area)
+    is_constrained, inside = between_constraints(rings.x, rings.y, rings.ring_next)
+    if not (is_constrained and inside.is_done):
+        return False
+    usual, forced = in_both_ways(rings.x, rings.y, rings.ring_next, True)
+    tri = usual.tri if usual.is_done else forced[1]
+    assert triangles_of(inside.tri) == triangles_of(tri)
+    return True
+
+
+def triangles_of(tri: Ints) -> set[frozenset[int]]:
+    """Triangles, whatever their order and that of their corners."""
+    return {frozenset(corners) for corners in tri.reshape(-1, 3).tolist()}
+
+
 @pytest.mark.parametrize("name", VALID)
 def test_named_areas_are_gathered_as_they_are_forced(name: str) -> None:
     check_both_ways(VALID[name])
@@ -277,6 +308,31 @@ def test_named_areas_are_gathered_as_they_are_forced(name: str) -> None:
 @settings(max_examples=200)
 def test_areas_are_gathered_as_they_are_forced(area: Polygon) -> None:
     check_both_ways(area)
+
+
+@pytest.mark.parametrize("name", VALID)
+def test_constraints_leave_named_areas_as_they_are(name: str) -> None:
+    check_constraints(VALID[name])
+    check_constraints(VALID[name].segmentize(VALID[name].length / 300))
+
+
+@given(area=st.one_of(areas, with_holes()), count=st.integers(70, 300))
+@settings(max_examples=200)
+def test_constraints_leave_areas_as_they_are(area: Polygon, count: int) -> None:
+    check_constraints(area.segmentize(area.length / count))
+
+
+@given(seed=st.integers(0, 2**32 - 1), roughness=st.floats(0.0, 0.3))
+@settings(max_examples=60)
+def test_constraints_leave_bent_areas_as_they_are(seed: int, roughness: float) -> None:
+    """Smooth banks have constraints all along, rough ones vertices far from any."""
+    rng = np.random.default_rng(seed)
+    turn = np.linspace(0.0, 2.0 * np.pi, 400, endpoint=False)
+    wobble = 1.0 + 0.3 * np.sin(3.0 * turn) + roughness * rng.normal(0.0, 0.1, 400)
+    ring = Polygon(np.column_stack([20.0 * wobble * np.cos(turn), 9.0 * wobble * np.sin(turn)]))
+    assert check_constraints(ring) or roughness > 0.0
+    hole = Polygon(np.column_stack([2.0 * np.cos(turn), 2.0 * np.sin(turn)])[::4])
+    assert check_constraints(ring.difference(hole)) or roughness > 0.0
 
 
 def test_densely_drawn_areas_are_gathered() -> None:

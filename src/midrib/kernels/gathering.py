@@ -2,16 +2,18 @@
 
 Banks are drawn with vertices that are nearer to each other than to the other bank: then each of
 their segments is Delaunay by itself, and no table of segments is needed to tell the inside.
+
+Where constraints kept edges from being flipped, it is seen to that those inside are Delaunay.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.insertion import FACE, TWIN
 from midrib.kernels.jit import njit
 from midrib.kernels.places import place
-from midrib.types import Ints, Places
+from midrib.kernels.stars import FACE, across, before, should_flip
+from midrib.types import Floats, Ints, Places
 
 __all__ = ["Inside", "gather_inside"]
 
@@ -29,12 +31,21 @@ class Inside(NamedTuple):
 
 
 @njit()
-def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places, by_rings: bool) -> Inside:
+def gather_inside(
+    count: int,
+    ring_next: Ints,
+    same: Ints,
+    xy: Floats,
+    is_constrained: bool,
+    face: Places,
+    by_rings: bool,
+) -> Inside:
     """Keep the triangles that can be reached from the left of a segment without crossing one.
 
     They are numbered in order along the rings, or else as they came.
     Not done where a segment is no edge, where rings touch, or where they are not nested as those
-    of a valid area: where the right of a segment or the rim would be kept.
+    of a valid area: where the right of a segment or the rim would be kept. Nor, where constraints
+    were used, if an edge should be flipped.
     """
     n, nothing = ring_next.size, np.empty(0, np.intp)
     no = Inside(False, nothing, nothing, nothing)
@@ -50,7 +61,9 @@ def gather_inside(count: int, ring_next: Ints, same: Ints, face: Places, by_ring
         return no
     seeds = seed_inside(count, most, face, stack, side_of_segment, by_rings)
     tri, twin = np.empty(3 * most, np.intp), np.empty(3 * most, np.intp)
-    if seeds < 0 or not spread_inside(seeds, most, follows, face, stack, tri, twin, n):
+    if seeds < 0 or not spread_inside(
+        seeds, most, follows, xy, is_constrained, face, stack, tri, twin, n
+    ):
         return no
     return Inside(True, tri, twin, side_of_segment)
 
@@ -105,6 +118,8 @@ def spread_inside(
     size: int,
     most: int,
     follows: Places,
+    xy: Floats,
+    is_constrained: bool,
     face: Places,
     stack: Places,
     tri: Ints,
@@ -121,14 +136,21 @@ def spread_inside(
         done += 1
         for side in range(3):
             a, b = place(face[e + side]), place(face[e + (side + 1 if side < 2 else 0)])
-            f = face[e + side + TWIN]
+            f = across(e + side, face)
             tri[new + side] = a
             if follows[a] == b:
                 twin[new + side] = -1
                 continue
-            if follows[b] == a or f < 0 or a >= n:
+            if follows[b] == a or a >= n:
                 return False
-            first = place(f) & -FACE
+            if is_constrained and e < f:
+                c, d = place(face[before(e + side)]), place(face[before(f)])
+                if should_flip(
+                    xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1],
+                    xy[2 * c], xy[2 * c + 1], xy[2 * d], xy[2 * d + 1],
+                ):  # fmt: skip
+                    return False
+            first = f & -FACE
             row = face[first + ROW]
             if row < 0:
                 if size == most:

@@ -1,75 +1,42 @@
-r"""Delaunay triangulation of vertices, one inserted after the other along their rings.
+"""Delaunay triangulation of vertices, one inserted after the other along their rings.
 
 Each starts its way from a ring neighbour that is already there; edges that are no longer Delaunay
-are flipped. All of a triangle lies together, in half a line of the cache, and no remainder by 3
-need be taken to go around it: both took a third of the time.
-
-half-edge e = 8 t + i    side i of triangle t, every one of which turns left
-face[e]                  the vertex that side leaves
-face[e + 4]              the same side seen from the other triangle; -1 where there is none
-face[8 t + 3]            room for what whoever goes on with the triangles notes about each
-
-            c                     a  b  c   a triangle
-          / | \\                   d        the vertex across a-b
-         /  |  \\
-        a --+-- b     flip: the diagonal a-b becomes c-d
-         \\  |  /
-          \\ | /
-            d
-
-Source: C. L. Lawson, Software for C1 Surface Interpolation, 1977 (flips). Signs are exact.
+are flipped, see ``stars``. Most need not look far, see ``constraints``.
 """
 
 import numpy as np
 
+from midrib.kernels.constraints import (
+    COARSE,
+    constrain,
+    is_outline,
+    locate_beside,
+    ring_neighbours,
+)  # fmt: skip
 from midrib.kernels.jit import njit
 from midrib.kernels.places import place
-from midrib.kernels.predicates import in_circle, orient
+from midrib.kernels.stars import (
+    FACE,
+    TWIN,
+    across,
+    after,
+    before,
+    corner_at,
+    first_of,
+    join,
+    legalise,
+    side_between,
+    split_edge,
+    split_triangle,
+    turn,
+    write_triangle,
+)  # fmt: skip
 from midrib.types import Floats, Ints, Places
 
-__all__ = ["BLOCK", "FACE", "TWIN", "coarse_to_fine", "insert_all", "is_convex", "should_flip"]
+__all__ = ["BLOCK", "coarse_to_fine", "insert_all"]
 
-FACE, TWIN = 8, 4  # places of a triangle; from the place of a half-edge to that of its twin
-COARSE, BLOCK = 8, 1024  # vertices; the triangles of a block fit into the cache
-
-
-@njit(borrows=True)
-def after(e: int) -> int:
-    """Next half-edge of the same triangle, turning left."""
-    return e - 2 if e & 3 == 2 else e + 1
-
-
-@njit(borrows=True)
-def before(e: int) -> int:
-    """Previous half-edge of the same triangle."""
-    return e + 2 if e & 3 == 0 else e - 1
-
-
-@njit(borrows=True)
-def first_of(e: int) -> int:
-    """First half-edge of the same triangle."""
-    return e & -FACE
-
-
-@njit(borrows=True)
-def join(e: int, f: int, face: Places) -> None:
-    """Make e and f two sides of one edge; f may be -1."""
-    face[e + TWIN] = f
-    if f >= 0:
-        face[place(f) + TWIN] = e
-
-
-@njit(borrows=True)
-def write_triangle(e: int, a: int, b: int, p: int, face: Places, out: Places) -> None:
-    """Write a b p at the three half-edges from e; remember a half-edge that leaves each."""
-    face[e], face[e + 1], face[e + 2] = a, b, p
-    out[a], out[b], out[p] = e, e + 1, e + 2
-
-
-@njit(borrows=True)
-def turn(a: int, b: int, px: float, py: float, xy: Floats) -> float:
-    """``orient`` of a, b and p."""
-    return orient(xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1], px, py)
+BLOCK = 1024  # vertices; the triangles of a block fit into the cache
+FEW = 64  # vertices, among which to look for the rings is not worth while
 
 
 @njit(borrows=True)
@@ -99,7 +66,7 @@ def locate(px: float, py: float, e: int, xy: Floats, face: Places) -> tuple[int,
         if side < 0:
             return (on, True) if on >= 0 else (e, False)
         # Through the side b-a into the triangle a b c: is p beyond b-c, or beyond c-a?
-        f = place(face[place(side) + TWIN])
+        f = across(place(side), face)
         e, a, b, c = first_of(f), b, a, place(face[before(f)])
         side, on = -1, -1
         draw = (draw * 1103515245 + 12345) & 0x7FFFFFFF
@@ -114,117 +81,6 @@ def locate(px: float, py: float, e: int, xy: Floats, face: Places) -> tuple[int,
             if by == 0.0:
                 on = at
     return -1, False
-
-
-@njit(inline=True, borrows=True)
-def should_flip(
-    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
-) -> bool:
-    """Whether c-d is the better diagonal of the quadrilateral a d b c, of which a-b is an edge.
-
-    Four vertices of one straight bank lie on a circle up to rounding. Left alone, slivers as long
-    as the bank would stay, and walks through them make the whole quadratic: there a much shorter
-    diagonal is taken, if it lies inside.
-    """
-    inside = in_circle(ax, ay, bx, by, cx, cy, dx, dy)
-    if inside != 0.0:
-        return inside > 0.0
-    old = (ax - bx) * (ax - bx) + (ay - by) * (ay - by)
-    new = (cx - dx) * (cx - dx) + (cy - dy) * (cy - dy)
-    return 2.0 * new < old and is_convex(ax, ay, bx, by, cx, cy, dx, dy)
-
-
-@njit(borrows=True)
-def is_convex(
-    ax: float, ay: float, bx: float, by: float, cx: float, cy: float, dx: float, dy: float
-) -> bool:
-    """Whether a and b lie strictly on either side of c-d, the diagonal across the edge a-b."""
-    return orient(ax, ay, dx, dy, cx, cy) > 0.0 and orient(dx, dy, bx, by, cx, cy) > 0.0
-
-
-@njit(borrows=True)
-def legalise(p: int, stack: Places, size: int, xy: Floats, face: Places, out: Places) -> None:
-    """Flip the edges across from the new vertex p as long as one should be; p gets each.
-
-    p is the last corner of its triangles, all of which are on the stack, and stays it.
-    """
-    px, py = xy[2 * p], xy[2 * p + 1]
-    while size > 0:
-        size -= 1
-        e = place(stack[place(size)])
-        if face[e + TWIN] < 0:
-            continue
-        f = place(face[e + TWIN])
-        f_after, f_before = after(f), before(f)
-        a, b, d = place(face[e]), place(face[e + 1]), place(face[f_before])
-        if should_flip(
-            xy[2 * a], xy[2 * a + 1], xy[2 * b], xy[2 * b + 1], px, py, xy[2 * d], xy[2 * d + 1]
-        ):
-            # a b p and b a d become a d p and d b p; the side p-a stays as it is.
-            second = first_of(f)
-            ad, db, bp = face[f_after + TWIN], face[f_before + TWIN], face[e + 1 + TWIN]
-            face[e + 1] = d
-            face[second], face[second + 1], face[second + 2] = d, b, p
-            out[a], out[d], out[b] = e, second, second + 1
-            join(e, ad, face)
-            join(second, db, face)
-            join(second + 1, bp, face)
-            join(e + 1, second + 2, face)
-            stack[place(size)], stack[place(size + 1)] = e, second
-            size += 2
-
-
-@njit(borrows=True)
-def insert_vertex(
-    p: int, near: int, count: int, stack: Places, xy: Floats, face: Places, out: Places
-) -> tuple[int, int]:
-    """Insert p, walking from the half-edge ``near``.
-
-    Return the number of triangles and the vertex already at that place, or p itself (-1: the
-    walk did not end).
-    """
-    px, py = xy[2 * p], xy[2 * p + 1]
-    e, on_edge = locate(px, py, near, xy, face)
-    if e < 0:
-        return count, -1
-    e, count = place(e), place(count)
-    a, b, c = place(face[e]), place(face[after(e)]), place(face[before(e)])
-    bc, ca = face[after(e) + TWIN], face[before(e) + TWIN]
-    third, fourth = FACE * count, FACE * count + FACE
-    if not on_edge:
-        write_triangle(third, b, c, p, face, out)
-        write_triangle(fourth, c, a, p, face, out)
-        write_triangle(e, a, b, p, face, out)
-        join(third, bc, face)
-        join(fourth, ca, face)
-        join(e + 1, third + 2, face)
-        join(third + 1, fourth + 2, face)
-        join(fourth + 1, e + 2, face)
-        stack[0], stack[1], stack[2] = e, third, fourth
-        legalise(p, stack, 3, xy, face, out)
-        return count + 2, p
-    for v in (a, b, c):
-        if xy[2 * v] == px and xy[2 * v + 1] == py:
-            return count, v
-    f = place(face[e + TWIN])
-    d = place(face[before(f)])
-    ad, db = face[after(f) + TWIN], face[before(f) + TWIN]
-    first, second = first_of(e), first_of(f)
-    write_triangle(first, b, c, p, face, out)
-    write_triangle(third, c, a, p, face, out)
-    write_triangle(second, a, d, p, face, out)
-    write_triangle(fourth, d, b, p, face, out)
-    join(first, bc, face)
-    join(third, ca, face)
-    join(second, ad, face)
-    join(fourth, db, face)
-    join(first + 1, third + 2, face)
-    join(third + 1, second + 2, face)
-    join(second + 1, fourth + 2, face)
-    join(fourth + 1, first + 2, face)
-    stack[0], stack[1], stack[2], stack[3] = first, second, third, fourth
-    legalise(p, stack, 4, xy, face, out)
-    return count + 2, p
 
 
 @njit()
@@ -253,22 +109,65 @@ def coarse_to_fine(n: int) -> tuple[Ints, int]:
 
 
 @njit()
-def insert_all(n: int, xy: Floats, face: Places, out: Places, same: Ints) -> int:
+def insert_all(
+    n: int, xy: Floats, ring_next: Ints, may_constrain: bool, face: Places, out: Places, same: Ints
+) -> tuple[int, bool]:
     """Insert the vertices 0..n-1 into the triangle of the next three.
 
-    Return the number of triangles, -1 on failure. ``out`` becomes a half-edge that leaves each
-    vertex, ``same`` the first vertex that is there. Each starts from the nearest one before it
-    along the ring that is there already.
+    Return the number of triangles, -1 on failure, and whether there are constraints: then triangles
+    outside of the rings are not Delaunay, and failure means no more than to try without.
+    ``out`` becomes a half-edge that leaves each vertex, ``same`` the first vertex that is there.
+    Each starts from the nearest one before it along the ring that is there already.
+
+    Each step is called in one place only, so that it becomes part of the loop: handing tables
+    over took a tenth of the time.
     """
     stack = np.empty(6 * n + 16, np.uint32)
-    write_triangle(0, n, n + 1, n + 2, face, out)
-    face[TWIN] = face[TWIN + 1] = face[TWIN + 2] = -1
-    count, near = 1, 0
+    write_triangle(0, n, n + 1, n + 2, face)
+    out[n], out[n + 1], out[n + 2] = 0, 1, 2
+    face[TWIN] = face[TWIN + 1] = face[TWIN + 2] = ~(face.size - FACE)
+    count, near, is_constrained = 1, 0, False
     order, stride = coarse_to_fine(n)
-    for p in order:
-        if p > 0:
-            near = out[same[p - min(p & -p, stride)]]
-        count, same[p] = insert_vertex(p, near, count, stack, xy, face, out)
-        if same[p] < 0:
-            return -1
-    return count
+    n_coarse = (n + COARSE - 1) // COARSE
+    for k in range(n):
+        same[k] = -1
+    for k in range(n):
+        if k == n_coarse and n > FEW and may_constrain:
+            is_constrained = is_outline(ring_next, same, xy, face, out)
+        p = order[k]
+        px, py, step = xy[2 * p], xy[2 * p + 1], min(p & -p, stride)
+        a = b = e = -1
+        on_edge, least, most = False, 0, 0
+        if is_constrained:
+            a, b = ring_neighbours(p, step, ring_next, same)
+            e = side_between(a, b, face, out) if a >= 0 else -1
+            if e >= 0:
+                join(e, across(e, face), face)
+                e, on_edge, least, most = locate_beside(e, px, py, xy, face)
+        is_beside = e >= 0
+        if not is_beside:
+            near = out[same[p - step]] if p > 0 else 0
+            e, on_edge = locate(px, py, near, xy, face)
+            if e < 0:
+                return -1, is_constrained
+            same[p] = corner_at(p, place(e), xy, face) if on_edge else p
+            if same[p] != p:
+                continue
+        same[p] = p
+        if on_edge:
+            size = split_edge(p, place(e), count, stack, face, out)
+        else:
+            size = split_triangle(p, place(e), count, stack, face, out)
+        count += 2
+        if is_beside:
+            size = most
+            to_b, to_p = place(stack[least]) + 2, place(stack[most - 1]) + 1
+            constrain(p, a, to_b, to_p, face, out)
+        legalise(p, stack, least, size, xy, face, out)
+        if a >= 0 and not is_beside:
+            to_b, to_p = side_between(p, b, face, out), side_between(a, p, face, out)
+            if to_b >= 0 and to_p >= 0:
+                constrain(p, a, to_b, to_p, face, out)
+            elif step == 1:  # a segment would have to be forced
+                return -1, is_constrained
+    return count, is_constrained

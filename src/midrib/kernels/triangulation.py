@@ -1,8 +1,9 @@
 r"""Constrained Delaunay triangulation of the inside of rings.
 
-Vertices go in one at a time, see ``insertion``. Mostly all ring segments are edges then, and what
-is inside is gathered at once, see ``gathering``. Else segments are forced in; then the triangles to
-the left of a segment are kept.
+Vertices go in one at a time, see ``insertion``: where rings are drawn finely, beside the edges that
+draw them so far. Mostly all ring segments are edges then, and what is inside is gathered at once,
+see ``gathering``. If not, they go in once more, without looking for the rings. Where that does not
+help, segments are forced in; then the triangles to the left of a segment are kept.
 
 half-edge e = 3 t + i    side i of triangle t, from tri[e] to the start of the next side;
                          every triangle turns left
@@ -26,10 +27,11 @@ Signs are exact, so every ring that is simple and touches others in points only 
 import numpy as np
 
 from midrib.kernels.gathering import gather_inside
-from midrib.kernels.insertion import FACE, TWIN, insert_all, is_convex, should_flip
+from midrib.kernels.insertion import insert_all
 from midrib.kernels.jit import njit
 from midrib.kernels.places import FURTHEST, place
 from midrib.kernels.predicates import orient
+from midrib.kernels.stars import FACE, across, is_convex, should_flip
 from midrib.kernels.tables import range_of, with_places
 from midrib.types import Floats, Ints, Places
 
@@ -396,15 +398,14 @@ def within_triangle(x: Floats, y: Floats) -> Floats:
 
 @njit()
 def unfold(count: int, face: Places, out: Places) -> tuple[Places, Places]:
-    """Return the half-edges of triangles that lie together in the tables above; mend ``out``."""
+    """Return the half-edges of triangles that lie together in the tables above; find ``out`` anew."""
     tri, twin = np.empty(3 * count, np.uint32), np.empty(3 * count, np.int32)
     for t in range(count):
         for side in range(3):
-            f = face[FACE * t + side + TWIN]
-            tri[3 * t + side] = face[FACE * t + side]
-            twin[3 * t + side] = 3 * (f // FACE) + f % FACE if f >= 0 else -1
-    for v in range(out.size):
-        out[v] = 3 * (out[v] // FACE) + out[v] % FACE
+            f = across(FACE * t + side, face)
+            v = tri[3 * t + side] = place(face[FACE * t + side])
+            out[v] = 3 * t + side
+            twin[3 * t + side] = 3 * (f // FACE) + f % FACE if f < FACE * count else -1
     return tri, twin
 
 
@@ -473,14 +474,19 @@ def triangulate_rings(
     n = x.size
     same, touches = np.full(n, -1, np.intp), np.full(n, -1, np.intp)
     nothing = np.empty(0, np.intp)
-    if FACE * (2 * n + 1) > FURTHEST:
+    if FACE * (2 * n + 2) > FURTHEST:
         return -1, nothing, nothing, nothing, same, touches, False
     xy = within_triangle(x, y)
-    face, out = np.empty(FACE * (2 * n + 1), np.int32), np.empty(n + 3, np.uint32)
-    count = insert_all(n, xy, face, out, same)
+    face, out = np.empty(FACE * (2 * n + 2), np.int32), np.empty(n + 3, np.uint32)
+    count = -1
+    for is_first in (True, False):
+        count, is_constrained = insert_all(n, xy, ring_next, is_first, face, out, same)
+        if count >= 0:
+            inside = gather_inside(count, ring_next, same, xy, is_constrained, face, by_rings)
+            if inside.is_done:
+                return 0, inside.tri, inside.twin, inside.side_of_segment, same, touches, True
+        if not is_constrained:
+            break
     if count < 0:
         return -1, nothing, nothing, nothing, same, touches, False
-    inside = gather_inside(count, ring_next, same, face, by_rings)
-    if inside.is_done:
-        return 0, inside.tri, inside.twin, inside.side_of_segment, same, touches, True
     return force_rings(count, x, y, xy, ring_next, same, touches, face, out, by_rings)
