@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from shapely import LineString, Point
 
-from midrib.kernels.banks import MANY, Bank, Banks, look_beside, look_between
+from midrib.kernels.banks import MANY, Bank, Banks
 from midrib.kernels.boxtree import DEPTH, box_tree
 from midrib.kernels.glide import Ends
+from midrib.kernels.looking import look_beside, look_between
 from midrib.kernels.probes import is_between_lines, worst_probe
 from tests.kernels.calling import callable_from_python
 

@@ -2,8 +2,9 @@
 
 from typing import NamedTuple
 
-from midrib.kernels.banks import Banks, is_level, lean_at
+from midrib.kernels.banks import Banks
 from midrib.kernels.jit import njit
+from midrib.kernels.leaning import is_level, lean_at
 from midrib.kernels.lengths import length
 from midrib.kernels.paths import Beads
 from midrib.types import Ints

@@ -14,10 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, banks_of, lean_at
+from midrib.kernels.banks import Banks, banks_of
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import Loops
 from midrib.kernels.jit import njit
+from midrib.kernels.leaning import lean_at
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import Beads, walk

@@ -2,23 +2,22 @@
 
 import numpy as np
 
-from midrib.kernels.banks import (
+from midrib.kernels.banks import Banks
+from midrib.kernels.glide import Ends, allowance
+from midrib.kernels.jit import njit
+from midrib.kernels.leaning import (
     LEVEL,
-    Banks,
     Lean,
     is_level,
-    is_looking_between,
     is_straight,
     lean_at,
     level_from,
     level_where_straight,
-    look_everywhere,
     way_from_nearer,
     way_to_level,
 )
-from midrib.kernels.glide import Ends, allowance
-from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
+from midrib.kernels.looking import is_looking_between, look_everywhere
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import walk
 from midrib.types import Ints

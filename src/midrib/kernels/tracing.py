@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, look_between, look_everywhere
+from midrib.kernels.banks import Banks
 from midrib.kernels.glide import Ends, is_before_end
 from midrib.kernels.jit import njit
 from midrib.kernels.lengths import length
+from midrib.kernels.looking import look_between, look_everywhere
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import (
     FARTHER,

@@ -8,15 +8,9 @@ ________|________
 
 import numpy as np
 
-from midrib.kernels.banks import (
-    Banks,
-    is_level,
-    lean_at,
-    level_between,
-    level_from,
-    way_to_level,
-)
+from midrib.kernels.banks import Banks
 from midrib.kernels.jit import njit
+from midrib.kernels.leaning import is_level, lean_at, level_between, level_from, way_to_level
 from midrib.kernels.lengths import length
 from midrib.kernels.mesh import Mesh
 from midrib.kernels.paths import triangle_towards, walk

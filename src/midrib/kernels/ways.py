@@ -11,11 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from midrib.kernels.banks import Banks, level_between, look_beside, look_everywhere
+from midrib.kernels.banks import Banks
 from midrib.kernels.chain import Chain
 from midrib.kernels.islands import AUXILIARY, MAIN, Loops, owners, side_length
 from midrib.kernels.jit import njit
+from midrib.kernels.leaning import level_between
 from midrib.kernels.lengths import length
+from midrib.kernels.looking import look_beside, look_everywhere
 from midrib.kernels.mesh import Mesh, next_boundary_side
 from midrib.kernels.paths import Beads
 from midrib.kernels.triangulation import next_side, previous_side
