@@ -95,6 +95,41 @@ def test_a_lift_set_aside_is_not_passed_by_in_silence(height: float, size: float
     assert np.count_nonzero(levels["flag"] == "") > 0.7 * len(levels)
 
 
+@pytest.mark.parametrize("size", [0.02, 0.3])
+@pytest.mark.parametrize(
+    "gaps",
+    [
+        [],
+        [(22.2, 22.7)],
+        [(21.7, 22.2)],
+        [(22.2, 23.7)],
+        [(20.7, 22.2)],
+        [(21.4, 23.0)],
+        [(14.0, 15.0), (22.2, 23.2), (30.0, 31.0)],
+    ],
+    ids=["none", "above", "below", "three above", "three below", "around", "three gaps"],
+)
+def test_an_offset_beside_missing_levels_is_one(
+    gaps: list[tuple[float, float]], size: float
+) -> None:
+    scan = scan_of(replace(TOWER, offset=size))
+    points = scan.points()
+    for low, high in gaps:
+        points = points[(points[:, 2] < low) | (points[:, 2] > high)]
+    axis = tower_axis(points)
+    (found,) = axis.offsets
+    assert axis.kinks == []
+    assert axis.radius_steps == []
+    assert found.size == pytest.approx(size, abs=2e-3)
+    # It may be anywhere in the gap, whose edges may be in the same levels as the wall.
+    ends = [TOWER.offset_height, *(end for gap in gaps for end in gap if abs(end - 22.2) < 3.0)]
+    assert min(ends) - 1.0 <= found.z <= max(ends) + 1.0
+    away, levels = offsets(axis, scan), axis.levels
+    assert not levels["z"][(levels["flag"] == "") & (away > 1e-3)].size
+    near = (levels["z"] >= min(ends) - 2.5) & (levels["z"] <= max(ends) + 2.5)
+    assert np.nanmax(away[~near]) < 1e-3
+
+
 def test_a_tower_with_an_offset_has_its_points_on_its_axis() -> None:
     tower = Tower(10.0, 1.0, 1.0, offset=0.5, offset_height=5.0)
     s = np.array([4.999, 5.001])

@@ -22,7 +22,7 @@ __all__ = ["chosen_of", "gain_beside"]
 HINGES, SEARCHED = ("kink", "batter"), 2  # every second hinge is tried at first
 CERTAIN = 24.0  # fall of -2 log L: by chance once in 1000 towers of 100 m, bends aside
 WORTH = 10.0  # the same, to be taken in for a trial: breaks hide each other till all are in
-FREED, ALIKE = 5.0, 1.0  # the same: what a level may gain by being free; less is no difference
+FREED = 5.0  # the same: a level may gain so much by being free, so less is no difference
 FEW = 20  # breaks: an axis with more is no axis with kinks
 MENDED = 3.0  # metres: a break may move so far once its neighbours are known
 PAIRED = 10.0  # metres: two that are no farther apart may be one
@@ -116,7 +116,7 @@ def best_of(problem: Problem, trials: Trials, free: "Ints", chosen: list[int]) -
     # A leap that is a level off gains as much by the level that it frees, but not of its own; at
     # missing levels it gains the same wherever it is, and is put in the middle of them.
     best = low + int(np.argmax(own[low:high]))
-    low, high = run_around(best, as_good & (own >= own[best] - ALIKE))
+    low, high = run_around(best, as_good & (own >= own[best] - FREED))
     middle = (low + high - 1) // 2
     return int(free[middle]), float(own[middle])
 
