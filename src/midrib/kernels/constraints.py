@@ -3,7 +3,7 @@ r"""Rings as the vertices that are in draw them: constraints, which keep inside 
 Half of the triangles of a triangulation are outside, where nobody asks whether they are Delaunay.
 Where coarse vertices draw the rings well, each further vertex goes in beside a side a-b of such a
 drawing. Then a-p and p-b are constraints instead, and only edges on the left of them are flipped:
-vertices go in within 0.75 to 0.95 of the time.
+a triangulation takes 0.7 to 0.97 of the time.
 
           c                     c
         /   \\                 /   \\   d

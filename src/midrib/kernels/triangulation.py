@@ -398,7 +398,7 @@ def within_triangle(x: Floats, y: Floats) -> Floats:
 
 @njit()
 def unfold(count: int, face: Places, out: Places) -> tuple[Places, Places]:
-    """Half-edges of triangles that lie together in the tables above; ``out`` is found anew."""
+    """Return triangles that lie together in the tables above; find ``out`` for those."""
     tri, twin = np.empty(3 * count, np.uint32), np.empty(3 * count, np.int32)
     for t in range(count):
         for side in range(3):
