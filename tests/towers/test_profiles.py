@@ -40,3 +40,4 @@ def test_a_batter_that_is_no_cone_has_its_axis_at_every_level(tower: Tower) -> N
     flags = axis.levels["flag"][2:-2]
     assert set(flags) <= {"", "rough"}  # at the break itself the taper is not smooth
     assert (flags != "").sum() <= 3
+    assert axis.radius_steps == []  # which a bend of the batter looks like near by
