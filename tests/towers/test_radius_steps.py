@@ -50,6 +50,7 @@ def is_near(levels: Any, tower: Stepped) -> Any:
         replace(PLAIN, steps=((20.0, -0.1),)),
         replace(PLAIN, steps=((20.0, 0.008),)),
         replace(PLAIN, steps=((3.0, -0.03),)),
+        replace(PLAIN, steps=((38.0, -0.03),)),
         replace(PLAIN, steps=((13.0, -0.03), (27.0, -0.03))),
         replace(PLAIN, steps=((18.0, -0.03), (22.0, 0.03))),
         replace(STEP, form_error=0.003),
@@ -57,8 +58,8 @@ def is_near(levels: Any, tower: Stepped) -> Any:
         replace(STEP, faces=4),
         replace(STEP, faces=8),
     ],
-    ids=["bent", "straight", "wider", "large", "small", "plinth", "two", "zone", "rough", "oval",
-         "square", "octagon"],
+    ids=["bent", "straight", "wider", "large", "small", "plinth", "top", "two", "zone", "rough",
+         "oval", "square", "octagon"],
 )  # fmt: skip
 def test_a_step_of_the_radius_is_told_and_leaves_the_axis_alone(tower: Stepped) -> None:
     scan = scan_of(tower)
