@@ -40,3 +40,10 @@ def test_a_batter_that_is_no_cone_has_its_axis_at_every_level(tower: Tower) -> N
     flags = axis.levels["flag"][2:-2]
     assert set(flags) <= {"", "rough"}  # at the break itself the taper is not smooth
     assert (flags != "").sum() <= 3
+    assert axis.radius_steps == []  # which a bend of the batter looks like near by
+
+
+def test_a_turn_of_the_batter_is_no_step_of_the_radius() -> None:
+    tower = Broken(60.0, 3.1, 2.0, lean=0.1, seed=3002)
+    axis = tower_axis(Scan(tower, count=300_000, noise=(0.002, 0.004), seed=3002).points())
+    assert axis.radius_steps == []

@@ -50,6 +50,7 @@ def is_near(levels: Any, tower: Stepped) -> Any:
         replace(PLAIN, steps=((20.0, -0.1),)),
         replace(PLAIN, steps=((20.0, 0.008),)),
         replace(PLAIN, steps=((3.0, -0.03),)),
+        replace(PLAIN, steps=((38.0, -0.03),)),
         replace(PLAIN, steps=((13.0, -0.03), (27.0, -0.03))),
         replace(PLAIN, steps=((18.0, -0.03), (22.0, 0.03))),
         replace(STEP, form_error=0.003),
@@ -57,8 +58,8 @@ def is_near(levels: Any, tower: Stepped) -> Any:
         replace(STEP, faces=4),
         replace(STEP, faces=8),
     ],
-    ids=["bent", "straight", "wider", "large", "small", "plinth", "two", "zone", "rough", "oval",
-         "square", "octagon"],
+    ids=["bent", "straight", "wider", "large", "small", "plinth", "top", "two", "zone", "rough",
+         "oval", "square", "octagon"],
 )  # fmt: skip
 def test_a_step_of_the_radius_is_told_and_leaves_the_axis_alone(tower: Stepped) -> None:
     scan = scan_of(tower)
@@ -77,13 +78,20 @@ def test_a_step_of_the_radius_is_told_and_leaves_the_axis_alone(tower: Stepped) 
 
 
 @pytest.mark.parametrize("size", [-0.03, 0.008])
-@pytest.mark.parametrize("view", [TWO, HALF], ids=["two stations", "half"])
-def test_a_step_that_is_seen_in_part_is_no_offset(view: dict[str, Any], size: float) -> None:
-    tower = replace(PLAIN, steps=((20.0, size),))
+@pytest.mark.parametrize(
+    ("view", "bend"),
+    [(TWO, 0.0), (TWO, 0.02), (HALF, 0.02)],
+    ids=["two stations, straight", "two stations", "half"],
+)
+def test_a_step_that_is_seen_in_part_is_no_offset(
+    view: dict[str, Any], size: float, bend: float
+) -> None:
+    tower = replace(PLAIN, steps=((20.0, size),), bend=bend)
     scan = scan_of(tower, **view)
     axis = tower_axis(scan.points())
     assert axis.offsets == []
     (found,) = axis.radius_steps
+    assert found.z == pytest.approx(20.0, abs=0.3)  # at the level that is cut, not beside it
     assert found.size == pytest.approx(size, abs=5e-4)
     assert np.nanmax(offsets(axis, scan)) < 1e-3
 
