@@ -1,5 +1,6 @@
 """Scans as they are: noise, clutter, hidden parts, sections that are no circles."""
 
+import re
 from typing import Any
 
 import numpy as np
@@ -69,6 +70,11 @@ def test_levels_that_may_be_far_off_are_flagged() -> None:
     axis = tower_axis(scan.points())
     uncertain = np.char.startswith(axis.levels["flag"], "uncertain by")
     assert uncertain[axis.is_answered].mean() > 0.5
+    # The text has a length above 5 mm: of the 95 % interval, or else of one in a thousand.
+    for flag in axis.levels["flag"][uncertain]:
+        lengths = [float(size) for size in re.findall(r"by ([\d.]+) mm", flag.split(";")[0])]
+        assert lengths[-1] > 5.0 - 0.05
+        assert len(lengths) == 1 or lengths[0] <= 5.0
     assert np.nanmax(offsets(axis, scan)[axis.levels["flag"] == ""], initial=0.0) < 5e-3
     # A smooth wall that is seen all round has no flags but where a platform hides it.
     flags = tower_axis(dirty().points()).levels["flag"]

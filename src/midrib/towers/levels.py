@@ -95,10 +95,10 @@ def levels_of(shell: "Shell", options: "Options", centres: Centres | None = None
     levels["sigma_inner"] = np.sqrt((sigma**2 + drawn**2).sum(axis=1) / 2.0 + floor)
     levels["sigma_x"], levels["sigma_y"] = np.sqrt(sigma.T**2 + drawn.T**2 + floor + outer)
     levels["sigma"] = np.sqrt((levels["sigma_x"] ** 2 + levels["sigma_y"] ** 2) / 2.0)
-    uncertain = is_uncertain(levels, sigma, unit)
+    doubts = doubts_of(levels, sigma, unit)
     aside = asides_at(shell, s, xy, UNCERTAIN * unit)
     flags = flags_of(
-        shell, s, seen, levels, why, uncertain, untold, aside, told=options.registration > 0.0
+        shell, s, seen, levels, why, doubts, untold, aside, told=options.registration > 0.0
     )
     levels["flag"] = flags
     unanswered = np.isnan(levels["x"]) | (seen.own == 0.0) | (seen.near < ARC)
@@ -177,7 +177,7 @@ def flags_of(
     seen: Seen,
     levels: Any,
     why: Any,
-    uncertain: "Bools",
+    doubts: Any,
     untold: "Bools",
     aside: "Floats",
     *,
@@ -187,7 +187,6 @@ def flags_of(
 
     ``told`` is whether sigma has what stations may be off by.
     """
-    half = NORMAL * 1e3 / shell.unit * np.maximum(levels["sigma_x"], levels["sigma_y"])
     usual = max(np.nanmedian(levels["residual"]), LEAST_ROUGH * shell.unit)
     flags = np.full(s.size, "", dtype=LEVELS["flag"])
     in_dent = np.zeros(s.size, dtype=np.bool_)
@@ -213,7 +212,7 @@ def flags_of(
     mark(np.isnan(levels["x"]) & (flags == ""), NO_DATA)
     answered = flags == ""
     mark(answered & (shell.shape.problem != ""), shell.shape.problem)
-    mark(answered & uncertain, [f"uncertain by {h:.1f} mm" for h in half])
+    mark(answered & (doubts != ""), doubts)
     mark(
         answered & untold & (shell.shape.problem == ""),
         [f"shape not verified: {arc:.0f}° of the shell seen" for arc in seen.near],
@@ -249,16 +248,20 @@ def registration_of(shell: "Shell", options: "Options") -> float:
     return max(shown, options.registration) / float(np.sqrt(n))
 
 
-def is_uncertain(levels: Any, inner: "Floats", unit: float) -> "Bools":
-    """Which levels may be off by more than what goes without a flag.
+def doubts_of(levels: Any, inner: "Floats", unit: float) -> Any:
+    """Say (n,) of levels that may be off by more than what goes without a flag by how much.
 
     By what the cloud tells, ``inner`` (n, 2), hardly any level may be; by registration and
     levelling too, which move all levels alike, the 95 % interval may not.
     """
     whole = NORMAL * np.maximum(levels["sigma_x"], levels["sigma_y"])
     alone = CERTAIN * inner.max(axis=1)
-    found: Bools = np.fmax(whole, alone) > UNCERTAIN * unit
-    return found
+    texts = np.full(whole.size, "", dtype="<U64")
+    for i in np.flatnonzero(np.fmax(whole, alone) > UNCERTAIN * unit):
+        texts[i] = f"uncertain by {1e3 * whole[i] / unit:.1f} mm"
+        if not whole[i] > UNCERTAIN * unit:
+            texts[i] += f" and once in a thousand by {1e3 * alone[i] / unit:.1f} mm"
+    return texts
 
 
 def add_deviations(levels: Any) -> None:
