@@ -11,12 +11,13 @@ from midrib.interrupts import INTERRUPTED
 __all__ = ["main"]
 
 WRONG_USAGE = 2
-OBJECTS = 100_000  # new ones after which garbage is looked for
+OBJECTS = 10_000  # new ones after which garbage is looked for
 
 
 def main() -> None:
     """Run the command line and leave with its exit code."""
     interrupts.install()  # before the imports, which take a while
+    usual = gc.get_threshold()
     gc.set_threshold(OBJECTS)  # what they make is none, and a sixth of a start went into finding so
     from midrib.cli.app import app
 
@@ -31,6 +32,8 @@ def main() -> None:
         if ended.code == INTERRUPTED:
             leave("interrupted", INTERRUPTED)
         raise
+    finally:
+        gc.set_threshold(*usual)
 
 
 def report_of(error: Exception) -> str:
